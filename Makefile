@@ -1,0 +1,26 @@
+# make demo   set up, then the first examples
+# make test   set up, then the tests
+# Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
+PYTHON ?= python3
+VENV := .venv
+export PYTHON VENV
+
+.PHONY: demo test lint setup clean
+
+demo: setup
+	$(VENV)/bin/python examples/hello_pydart.py
+	$(VENV)/bin/python examples/inspect_skeleton.py data/sdf/atlas/atlas_v3_no_head.sdf
+
+test: setup lint
+	$(VENV)/bin/python -m pytest
+
+lint: setup
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/mypy
+
+setup:
+	@tools/setup.sh
+
+clean:
+	rm -rf build $(VENV) *.egg-info pydart2/pydart2_api.py pydart2/pydart2_api.pyi pydart2/_pydart2_api.*.so

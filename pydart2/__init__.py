@@ -1,0 +1,90 @@
+"""Robot physics for Python on the DART engine.
+
+>>> import pydart2 as pydart
+>>> world = pydart.World(1.0 / 2000.0, "./data/skel/cubes.skel")
+>>> world.step()
+>>> world.skeletons[-1].C
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pydart2 import constraints
+from pydart2.bodynode import BodyNode
+from pydart2.collision_result import CollisionResult
+from pydart2.contact import Contact
+from pydart2.dof import Dof
+from pydart2.errors import DestroyedError, LoadError, NameNotFound, PydartError, SimulationError
+from pydart2.joint import (
+    BallJoint,
+    EulerJoint,
+    FreeJoint,
+    Joint,
+    PlanarJoint,
+    PrismaticJoint,
+    RevoluteJoint,
+    ScrewJoint,
+    TranslationalJoint,
+    TranslationalJoint2D,
+    UniversalJoint,
+    WeldJoint,
+)
+from pydart2.manager import init, set_verbose, verbose
+from pydart2.marker import Marker
+from pydart2.recording import Recording
+from pydart2.resources import data_files, data_path
+from pydart2.shape import Shape
+from pydart2.shapenode import ShapeNode
+from pydart2.skel_vector import SkelVector
+from pydart2.skeleton import Skeleton
+from pydart2.world import World, create_world
+
+if TYPE_CHECKING:
+    __version__: str
+
+__all__ = [
+    "BallJoint",
+    "BodyNode",
+    "CollisionResult",
+    "Contact",
+    "DestroyedError",
+    "Dof",
+    "EulerJoint",
+    "FreeJoint",
+    "Joint",
+    "LoadError",
+    "Marker",
+    "NameNotFound",
+    "PlanarJoint",
+    "PrismaticJoint",
+    "PydartError",
+    "Recording",
+    "RevoluteJoint",
+    "ScrewJoint",
+    "Shape",
+    "ShapeNode",
+    "SimulationError",
+    "SkelVector",
+    "Skeleton",
+    "TranslationalJoint",
+    "TranslationalJoint2D",
+    "UniversalJoint",
+    "WeldJoint",
+    "World",
+    "constraints",
+    "create_world",
+    "data_files",
+    "data_path",
+    "init",
+    "set_verbose",
+    "verbose",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name == "__version__":  # read from the package's metadata, which takes a while to open
+        from importlib.metadata import version
+
+        return version("pydart2")
+    raise AttributeError(f"module 'pydart2' has no attribute {name!r}")

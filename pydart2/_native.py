@@ -1,0 +1,27 @@
+"""The only importer of the extension inside the package."""
+
+from pydart2.pydart2_api import (
+    BodyNodeHandle,
+    DofHandle,
+    JointHandle,
+    MarkerHandle,
+    NamedVector,
+    ShapeHandle,
+    ShapeNodeHandle,
+    SkeletonHandle,
+    WorldHandle,
+    restart,
+)
+
+__all__ = [
+    "BodyNodeHandle",
+    "DofHandle",
+    "JointHandle",
+    "MarkerHandle",
+    "NamedVector",
+    "ShapeHandle",
+    "ShapeNodeHandle",
+    "SkeletonHandle",
+    "WorldHandle",
+    "restart",
+]

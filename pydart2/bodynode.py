@@ -1,0 +1,362 @@
+"""Bodies (links) of a skeleton."""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pydart2.shapenode import ShapeNode
+
+if TYPE_CHECKING:
+    from pydart2._native import BodyNodeHandle
+    from pydart2.dof import Dof
+    from pydart2.joint import Joint
+    from pydart2.marker import Marker
+    from pydart2.skeleton import Skeleton
+    from pydart2.world import World
+
+_log = logging.getLogger("pydart2")
+_ORIGIN = (0.0, 0.0, 0.0)
+
+
+class BodyNode:
+    """A rigid or soft body of a skeleton.
+
+    Jacobians have the angular rows before the linear ones. ``full=True`` gives a column to each dof of the skeleton,
+    ``full=False`` to the dependent dofs only. An `offset` is a point in the body frame, shape (3,), m; None is the
+    body's origin.
+
+    Attributes
+    ----------
+    skeleton : Skeleton
+    id : int
+        Index in the skeleton.
+    name : str
+    parent_bodynode : BodyNode or None
+    child_bodynodes : list of BodyNode
+    parent_joint : Joint
+    child_joints : list of Joint
+    dependent_dofs : list of Dof
+        The dofs that move it, from the root to the leaf.
+    markers : list of Marker
+    shapenodes : list of ShapeNode
+    """
+
+    parent_bodynode: BodyNode | None
+    parent_joint: Joint
+
+    def __init__(self, _skel: Skeleton, _id: int) -> None:
+        self.skeleton = _skel
+        self._id = _id
+        self._handle: BodyNodeHandle = _skel._handle.bodynode(_id)
+        self.name = self._handle.name()
+        self.child_bodynodes: list[BodyNode] = []
+        self.child_joints: list[Joint] = []
+        self.dependent_dofs: list[Dof] = []
+        self.markers: list[Marker] = []
+        self.shapenodes: list[ShapeNode] = []
+
+    def build(self) -> None:
+        """Link to the other parts of the skeleton."""
+        skel, handle = self.skeleton, self._handle
+        parent = handle.parent_bodynode()
+        self.parent_bodynode = skel.bodynodes[parent] if parent >= 0 else None
+        self.child_bodynodes = [skel.bodynodes[handle.child_bodynode(i)] for i in range(self.num_child_bodynodes())]
+        self.parent_joint = skel.joints[handle.parent_joint()]
+        self.child_joints = [skel.joints[handle.child_joint(i)] for i in range(self.num_child_joints())]
+        self.dependent_dofs = [skel.dofs[handle.dependent_dof(i)] for i in range(self.num_dependent_dofs())]
+        self.shapenodes = [ShapeNode(self, i) for i in range(self.num_shapenodes())]
+        self.markers = []  # each marker adds itself
+
+    @property
+    def id(self) -> int:
+        """Index in the skeleton."""
+        return self._id
+
+    @property
+    def skel(self) -> Skeleton:
+        """The skeleton."""
+        return self.skeleton
+
+    @property
+    def world(self) -> World:
+        """The world."""
+        return self.skeleton.world
+
+    @property
+    def wid(self) -> int:
+        """Id of the world."""
+        return self.skeleton.world.id
+
+    @property
+    def skid(self) -> int:
+        """Id of the skeleton."""
+        return self.skeleton.id
+
+    # Structure
+
+    def num_child_bodynodes(self) -> int:
+        """How many bodies hang from it."""
+        return self._handle.num_child_bodynodes()
+
+    def num_dependent_dofs(self) -> int:
+        """How many dofs move it."""
+        return self._handle.num_dependent_dofs()
+
+    def num_child_joints(self) -> int:
+        """How many joints hang from it."""
+        return self._handle.num_child_joints()
+
+    def num_markers(self) -> int:
+        """How many markers it has."""
+        return len(self.markers)
+
+    def num_shapenodes(self) -> int:
+        """How many shape nodes it has."""
+        return self._handle.num_shapenodes()
+
+    def index_in_skeleton(self) -> int:
+        """Index in the skeleton."""
+        return self._handle.index_in_skeleton()
+
+    def index_in_tree(self) -> int:
+        """Index in its tree; a skeleton may have several."""
+        return self._handle.index_in_tree()
+
+    def tree_index(self) -> int:
+        """Index of its tree."""
+        return self._handle.tree_index()
+
+    # Properties
+
+    def gravity_mode(self) -> bool:
+        """Whether gravity acts on it."""
+        return self._handle.gravity_mode()
+
+    def set_gravity_mode(self, gravity_mode: bool) -> None:
+        """Let gravity act on it or not."""
+        self._handle.set_gravity_mode(gravity_mode)
+
+    def is_collidable(self) -> bool:
+        """Whether it collides."""
+        return self._handle.is_collidable()
+
+    def set_collidable(self, is_collidable: bool) -> None:
+        """Let it collide or not."""
+        self._handle.set_collidable(is_collidable)
+
+    def mass(self) -> float:
+        """Mass, kg."""
+        return self._handle.mass()
+
+    def set_mass(self, mass: float) -> None:
+        """Set the mass, kg, > 0. The moment of inertia stays as it is."""
+        self._handle.set_mass(mass)
+
+    @property
+    def m(self) -> float:
+        """Mass, kg."""
+        return self._handle.mass()
+
+    def inertia(self) -> NDArray[np.float64]:
+        """Moment of inertia about the COM, body axes, shape (3, 3), kg m²."""
+        return self._handle.inertia()
+
+    def set_inertia(self, inertia: ArrayLike) -> None:
+        """Set the moment of inertia about the COM, body axes, shape (3, 3), kg m²; symmetric, positive definite."""
+        self._handle.set_inertia(inertia)
+
+    def set_inertia_entries(
+        self,
+        Ixx: float,  # noqa: N803 (the field's names)
+        Iyy: float,  # noqa: N803
+        Izz: float,  # noqa: N803
+        Ixy: float = 0.0,  # noqa: N803
+        Ixz: float = 0.0,  # noqa: N803
+        Iyz: float = 0.0,  # noqa: N803
+    ) -> None:
+        """Set the moment of inertia about the COM, body axes, kg m²."""
+        self._handle.set_inertia([[Ixx, Ixy, Ixz], [Ixy, Iyy, Iyz], [Ixz, Iyz, Izz]])
+
+    @property
+    def I(self) -> NDArray[np.float64]:  # noqa: E743, N802 (the field's name)
+        """Moment of inertia about the COM, body axes, shape (3, 3), kg m²."""
+        return self._handle.inertia()
+
+    def local_com(self) -> NDArray[np.float64]:
+        """Centre of mass in the body frame, shape (3,), m."""
+        return self._handle.local_com()
+
+    def set_local_com(self, com: ArrayLike) -> None:
+        """Set the centre of mass in the body frame, shape (3,), m."""
+        self._handle.set_local_com(com)
+
+    def friction_coeff(self) -> float:
+        """Friction coefficient of its first colliding shape; 1 without any."""
+        return self._handle.friction_coeff()
+
+    def set_friction_coeff(self, coeff: float) -> None:
+        """Set the friction coefficient of all its colliding shapes, >= 0."""
+        if not self._handle.set_friction_coeff(coeff):
+            _log.warning("%s has no colliding shape, so no friction to set", self)
+
+    def restitution_coeff(self) -> float:
+        """Restitution coefficient of its first colliding shape; 0 without any."""
+        return self._handle.restitution_coeff()
+
+    def set_restitution_coeff(self, coeff: float) -> None:
+        """Set the restitution coefficient of all its colliding shapes, >= 0."""
+        if not self._handle.set_restitution_coeff(coeff):
+            _log.warning("%s has no colliding shape, so no restitution to set", self)
+
+    # Pose and motion
+
+    def transform(self) -> NDArray[np.float64]:
+        """Pose of the body frame in the world, shape (4, 4), m."""
+        return self._handle.transform()
+
+    def world_transform(self) -> NDArray[np.float64]:
+        """Pose of the body frame in the world, shape (4, 4), m."""
+        return self._handle.transform()
+
+    @property
+    def T(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
+        """Pose of the body frame in the world, shape (4, 4), m."""
+        return self._handle.transform()
+
+    def relative_transform(self) -> NDArray[np.float64]:
+        """Pose of the body frame in the parent body, shape (4, 4), m."""
+        return self._handle.relative_transform()
+
+    def to_world(self, x: ArrayLike | None = None) -> NDArray[np.float64]:
+        """Where the point `x` of the body frame is in the world, shape (3,), m."""
+        return self._handle.to_world(x)
+
+    def to_local(self, x: ArrayLike) -> NDArray[np.float64]:
+        """Where the point `x` of the world is in the body frame, shape (3,), m."""
+        return self._handle.to_local(x)
+
+    def com(self) -> NDArray[np.float64]:
+        """Centre of mass in the world, shape (3,), m."""
+        return self._handle.com()
+
+    @property
+    def C(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
+        """Centre of mass in the world, shape (3,), m."""
+        return self._handle.com()
+
+    def com_linear_velocity(self) -> NDArray[np.float64]:
+        """Velocity of the centre of mass, world frame, shape (3,), m/s."""
+        return self._handle.com_linear_velocity()
+
+    @property
+    def dC(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
+        """Velocity of the centre of mass, world frame, shape (3,), m/s."""
+        return self._handle.com_linear_velocity()
+
+    def com_linear_acceleration(self) -> NDArray[np.float64]:
+        """Acceleration of the centre of mass, world frame, shape (3,), m/s²."""
+        return self._handle.com_linear_acceleration()
+
+    def com_spatial_velocity(self) -> NDArray[np.float64]:
+        """Angular (rad/s) and linear (m/s) velocity of the centre of mass, body coordinates, shape (6,)."""
+        return self._handle.com_spatial_velocity()
+
+    def com_spatial_acceleration(self) -> NDArray[np.float64]:
+        """Angular (rad/s²) and linear (m/s²) acceleration of the centre of mass, body coordinates, shape (6,)."""
+        return self._handle.com_spatial_acceleration()
+
+    def linear_momentum(self) -> NDArray[np.float64]:
+        """Linear momentum as the engine gives it, body coordinates, shape (3,), kg m/s."""
+        return self._handle.linear_momentum()
+
+    def angular_momentum(self) -> NDArray[np.float64]:
+        """Angular momentum about the body's origin as the engine gives it, body coordinates, shape (3,), kg m²/s."""
+        return self._handle.angular_momentum()
+
+    # External forces: they act in the next step only
+
+    def add_ext_force(
+        self,
+        _force: ArrayLike,
+        _offset: ArrayLike | None = None,
+        _isForceLocal: bool = False,  # noqa: N803 (the original's)
+        _isOffsetLocal: bool = True,  # noqa: N803
+    ) -> None:
+        """Add a force for the next step.
+
+        Parameters
+        ----------
+        _force
+            Shape (3,), N; in the world frame unless `_isForceLocal`.
+        _offset
+            Where it acts, shape (3,), m; in the body frame unless `_isOffsetLocal` is False. Default: its origin.
+        """
+        self._handle.add_ext_force(_force, _ORIGIN if _offset is None else _offset, _isForceLocal, _isOffsetLocal)
+
+    def set_ext_force(
+        self,
+        _force: ArrayLike,
+        _offset: ArrayLike | None = None,
+        _isForceLocal: bool = False,  # noqa: N803 (the original's)
+        _isOffsetLocal: bool = True,  # noqa: N803
+    ) -> None:
+        """Like add_ext_force(), in place of what was added before."""
+        self._handle.set_ext_force(_force, _ORIGIN if _offset is None else _offset, _isForceLocal, _isOffsetLocal)
+
+    def add_ext_torque(self, _torque: ArrayLike, _isLocal: bool = False) -> None:  # noqa: N803 (the original's)
+        """Add a torque for the next step, shape (3,), N m; in the world frame unless `_isLocal`."""
+        self._handle.add_ext_torque(_torque, _isLocal)
+
+    def set_ext_torque(self, _torque: ArrayLike, _isLocal: bool = False) -> None:  # noqa: N803 (the original's)
+        """Like add_ext_torque(), in place of what was added before."""
+        self._handle.set_ext_torque(_torque, _isLocal)
+
+    # Jacobians
+
+    def jacobian(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+        """Jacobian of a point in body coordinates, shape (6, n)."""
+        return self._handle.jacobian(offset, full)
+
+    def world_jacobian(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+        """Jacobian of a point in world coordinates, shape (6, n)."""
+        return self._handle.world_jacobian(offset, full)
+
+    def linear_jacobian(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+        """Linear Jacobian of a point in world coordinates, shape (3, n): ``J @ dq`` is its velocity in m/s."""
+        return self._handle.linear_jacobian(offset, full)
+
+    @property
+    def J(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
+        """Linear Jacobian of the origin in world coordinates, shape (3, ndofs)."""
+        return self._handle.linear_jacobian(None, True)
+
+    def angular_jacobian(self, full: bool = True) -> NDArray[np.float64]:
+        """Angular Jacobian in world coordinates, shape (3, n): times dq it is the angular velocity in rad/s."""
+        return self._handle.angular_jacobian(full)
+
+    def linear_jacobian_deriv(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+        """Time derivative of linear_jacobian(), shape (3, n)."""
+        return self._handle.linear_jacobian_deriv(offset, full)
+
+    @property
+    def dJ(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
+        """Time derivative of J, shape (3, ndofs)."""
+        return self._handle.linear_jacobian_deriv(None, True)
+
+    def angular_jacobian_deriv(self, full: bool = True) -> NDArray[np.float64]:
+        """Time derivative of angular_jacobian(), shape (3, n)."""
+        return self._handle.angular_jacobian_deriv(full)
+
+    def expand_jacobian(self, Jdep: ArrayLike) -> NDArray[np.float64]:  # noqa: N803 (the original's)
+        """A Jacobian over the dependent dofs, shape (r, n), with zero columns for the others, shape (r, ndofs)."""
+        dependent = np.asarray(Jdep, dtype=float)
+        full = np.zeros((dependent.shape[0], self.skeleton.ndofs))
+        full[:, [dof.id for dof in self.dependent_dofs]] = dependent
+        return full
+
+    def __repr__(self) -> str:
+        return f"[BodyNode({self.id}): {self.name}]"

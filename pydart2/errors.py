@@ -1,0 +1,46 @@
+"""The exceptions of this package. Wrong arguments are plain ValueError, TypeError or IndexError."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class PydartError(RuntimeError):
+    """Something that the engine cannot do; the base of the errors below."""
+
+
+class LoadError(PydartError, OSError):
+    """A model file that is missing or cannot be read."""
+
+
+class SimulationError(PydartError):
+    """A simulation whose state is no longer finite."""
+
+
+class DestroyedError(PydartError):
+    """The use of something that is gone: its world was destroyed, or its skeleton's tree has changed."""
+
+
+class NameNotFound(KeyError, ValueError):
+    """A name that is not there; says where it was looked for and the nearest name."""
+
+    def __init__(self, kind: str, name: object, where: str, names: Iterable[str] = ()) -> None:
+        from difflib import get_close_matches
+
+        message = f"no {kind} {name!r} in {where}"
+        nearest = get_close_matches(str(name), list(names), n=1, cutoff=0.4)
+        if nearest:
+            message += f"; did you mean {nearest[0]!r}?"
+        super().__init__(message)
+
+    def __str__(self) -> str:
+        return str(self.args[0])  # KeyError would quote the sentence
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _restore_name_not_found, (str(self),)
+
+
+def _restore_name_not_found(message: str) -> NameNotFound:
+    error = NameNotFound.__new__(NameNotFound)
+    error.args = (message,)
+    return error

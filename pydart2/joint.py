@@ -1,0 +1,347 @@
+"""Joints."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from pydart2.bodynode import BodyNode
+    from pydart2.dof import Dof
+    from pydart2.skeleton import Skeleton
+
+# The engine numbers its actuator types otherwise, so they cross the boundary by name.
+_ACTUATORS = ("FORCE", "PASSIVE", "SERVO", "ACCELERATION", "VELOCITY", "LOCKED", "MIMIC")
+
+
+class Joint:
+    """A joint of any type, between a body and its parent.
+
+    Attributes
+    ----------
+    skeleton : Skeleton
+    id : int
+        Index in the skeleton.
+    name : str
+    parent_bodynode : BodyNode or None
+        None for a joint to the world.
+    child_bodynode : BodyNode
+    dofs : list of Dof
+    """
+
+    FORCE: ClassVar[int] = 0
+    PASSIVE: ClassVar[int] = 1
+    SERVO: ClassVar[int] = 2
+    ACCELERATION: ClassVar[int] = 3
+    VELOCITY: ClassVar[int] = 4
+    LOCKED: ClassVar[int] = 5
+    MIMIC: ClassVar[int] = 6
+
+    parent_bodynode: BodyNode | None
+    child_bodynode: BodyNode
+    dofs: list[Dof]
+
+    def __init__(self, _skeleton: Skeleton, _id: int) -> None:
+        self.skeleton = _skeleton
+        self.id = _id
+        self._handle = _skeleton._handle.joint(_id)
+        self.name = self._handle.name()
+
+    def build(self) -> None:
+        """Link to the bodies and dofs."""
+        bodies = self.skeleton.bodynodes
+        parent = self._handle.parent_bodynode()
+        self.parent_bodynode = bodies[parent] if parent >= 0 else None
+        self.child_bodynode = bodies[self._handle.child_bodynode()]
+        self.dofs = [self.skeleton.dofs[self._handle.dof(i)] for i in range(self.num_dofs())]
+        for dof in self.dofs:
+            dof.joint = self
+
+    @property
+    def skel(self) -> Skeleton:
+        """The skeleton."""
+        return self.skeleton
+
+    @property
+    def wid(self) -> int:
+        """Id of the world."""
+        return self.skeleton.world.id
+
+    @property
+    def skid(self) -> int:
+        """Id of the skeleton."""
+        return self.skeleton.id
+
+    def set_name(self, _name: str, _renameDofs: bool = True) -> str:  # noqa: N803 (the original's)
+        """Rename the joint and, if asked, its dofs; returns the name it got, which differs if it was taken."""
+        self._handle.set_name(_name, _renameDofs)
+        self.skeleton._refresh_names()
+        return self.name
+
+    def type(self) -> str:
+        """The engine's name of the type, as ``"RevoluteJoint"``."""
+        return self._handle.type()
+
+    def is_kinematic(self) -> bool:
+        """Whether its motion is prescribed (ACCELERATION, VELOCITY, LOCKED)."""
+        return self._handle.is_kinematic()
+
+    def is_dynamic(self) -> bool:
+        """Whether forces move it."""
+        return self._handle.is_dynamic()
+
+    def actuator_type(self) -> int:
+        """One of FORCE, PASSIVE, SERVO, ACCELERATION, VELOCITY, LOCKED, MIMIC."""
+        return _ACTUATORS.index(self._handle.actuator_type())
+
+    def set_actuator_type(self, actuator_type: int) -> None:
+        """Set to FORCE, PASSIVE, SERVO, ACCELERATION, VELOCITY or LOCKED; MIMIC needs set_mimic() before."""
+        if actuator_type not in range(len(_ACTUATORS)):
+            raise ValueError(f"no actuator type {actuator_type!r}; they are Joint.FORCE = 0 to Joint.MIMIC = 6")
+        self._handle.set_actuator_type(_ACTUATORS[actuator_type])
+
+    def set_mimic(self, joint: Joint, multiplier: float = 1.0, offset: float = 0.0) -> None:
+        """Follow another joint of the skeleton, ``q = multiplier * q_other + offset``, as actuator type MIMIC."""
+        self._handle.set_mimic(joint._handle, multiplier, offset)
+
+    def position_in_world_frame(self) -> NDArray[np.float64]:
+        """Centre of the joint, world frame, shape (3,), m."""
+        centre: NDArray[np.float64] = self._handle.world_transform_of_child_side()[:3, 3].copy()
+        return centre
+
+    def parent_body_node_id(self) -> int:
+        """Id of the parent body, -1 for the world."""
+        return self._handle.parent_bodynode()
+
+    def child_body_node_id(self) -> int:
+        """Id of the child body."""
+        return self._handle.child_bodynode()
+
+    def transform_from_parent_body_node(self) -> NDArray[np.float64]:
+        """Pose of the joint in the parent body, shape (4, 4), m."""
+        return self._handle.transform_from_parent_body_node()
+
+    def set_transform_from_parent_body_node(self, transform: ArrayLike) -> None:
+        """Set the pose of the joint in the parent body, shape (4, 4), m."""
+        self._handle.set_transform_from_parent_body_node(transform)
+
+    def transform_from_child_body_node(self) -> NDArray[np.float64]:
+        """Pose of the joint in the child body, shape (4, 4), m."""
+        return self._handle.transform_from_child_body_node()
+
+    def set_transform_from_child_body_node(self, transform: ArrayLike) -> None:
+        """Set the pose of the joint in the child body, shape (4, 4), m."""
+        self._handle.set_transform_from_child_body_node(transform)
+
+    def is_position_limit_enforced(self) -> bool:
+        """Whether the position limits act; by default they do not."""
+        return self._handle.is_position_limit_enforced()
+
+    def set_position_limit_enforced(self, _isPositionLimitEnforced: bool = True) -> None:  # noqa: N803
+        """Let the position limits act or not."""
+        self._handle.set_position_limit_enforced(_isPositionLimitEnforced)
+
+    def num_dofs(self) -> int:
+        """How many dofs it has."""
+        return self._handle.num_dofs()
+
+    def has_position_limit(self, index: int) -> bool:
+        """Whether either position limit of its dof `index` is finite."""
+        return self._dof(index).has_position_limit()
+
+    def position_lower_limit(self, index: int) -> float:
+        """Lower limit of its dof `index`, rad or m."""
+        return self._dof(index).position_lower_limit()
+
+    def set_position_lower_limit(self, index: int, position: float) -> None:
+        """Set the lower limit of its dof `index`, rad or m."""
+        self._dof(index).set_position_lower_limit(position)
+
+    def position_upper_limit(self, index: int) -> float:
+        """Upper limit of its dof `index`, rad or m."""
+        return self._dof(index).position_upper_limit()
+
+    def set_position_upper_limit(self, index: int, position: float) -> None:
+        """Set the upper limit of its dof `index`, rad or m."""
+        self._dof(index).set_position_upper_limit(position)
+
+    def spring_stiffness(self, index: int) -> float:
+        """Spring stiffness of its dof `index`, N m/rad or N/m."""
+        return self._dof(index).spring_stiffness()
+
+    def set_spring_stiffness(self, index: int, stiffness: float) -> None:
+        """Set the spring stiffness of its dof `index`, N m/rad or N/m, >= 0."""
+        self._dof(index).set_spring_stiffness(stiffness)
+
+    def rest_position(self, index: int) -> float:
+        """Rest position of the spring of its dof `index`, rad or m."""
+        return self._dof(index).rest_position()
+
+    def set_rest_position(self, index: int, position: float) -> None:
+        """Set the rest position of the spring of its dof `index`, rad or m."""
+        self._dof(index).set_rest_position(position)
+
+    def damping_coefficient(self, index: int) -> float:
+        """Viscous damping of its dof `index`, N m s/rad or N s/m."""
+        return self._dof(index).damping_coefficient()
+
+    def set_damping_coefficient(self, index: int, coefficient: float) -> None:
+        """Set the viscous damping of its dof `index`, N m s/rad or N s/m, >= 0."""
+        self._dof(index).set_damping_coefficient(coefficient)
+
+    def coulomb_friction(self, index: int) -> float:
+        """Coulomb friction of its dof `index`, N m or N."""
+        return self._dof(index).coulomb_friction()
+
+    def set_coulomb_friction(self, index: int, friction: float) -> None:
+        """Set the Coulomb friction of its dof `index`, N m or N, >= 0."""
+        self._dof(index).set_coulomb_friction(friction)
+
+    def _dof(self, index: int) -> Dof:
+        if not 0 <= index < len(self.dofs):
+            raise IndexError(f"joint {self.name!r} has {len(self.dofs)} dofs, so no dof {index}")
+        return self.dofs[index]
+
+    def __repr__(self) -> str:
+        return f"[{type(self).__name__}({self.id}): {self.name}]"
+
+
+class WeldJoint(Joint):
+    """No motion."""
+
+
+class RevoluteJoint(Joint):
+    """Rotation about an axis."""
+
+    def axis(self) -> NDArray[np.float64]:
+        """Unit axis in the joint's frame, shape (3,)."""
+        return self._handle.axis()
+
+    def set_axis(self, axis: ArrayLike) -> None:
+        """Set the axis in the joint's frame, shape (3,); it is made a unit vector."""
+        self._handle.set_axis(axis)
+
+    def axis_in_world_frame(self) -> NDArray[np.float64]:
+        """Unit axis in the world, shape (3,)."""
+        axis: NDArray[np.float64] = self._handle.world_transform_of_child_side()[:3, :3] @ self.axis()
+        return axis
+
+
+class PrismaticJoint(Joint):
+    """Translation along an axis."""
+
+    def axis(self) -> NDArray[np.float64]:
+        """Unit axis in the joint's frame, shape (3,)."""
+        return self._handle.axis()
+
+    def set_axis(self, axis: ArrayLike) -> None:
+        """Set the axis in the joint's frame, shape (3,); it is made a unit vector."""
+        self._handle.set_axis(axis)
+
+
+class ScrewJoint(Joint):
+    """Rotation about an axis, with translation along it."""
+
+    def axis(self) -> NDArray[np.float64]:
+        """Unit axis in the joint's frame, shape (3,)."""
+        return self._handle.axis()
+
+    def set_axis(self, axis: ArrayLike) -> None:
+        """Set the axis in the joint's frame, shape (3,); it is made a unit vector."""
+        self._handle.set_axis(axis)
+
+    def pitch(self) -> float:
+        """Translation per turn, m."""
+        return self._handle.pitch()
+
+    def set_pitch(self, pitch: float) -> None:
+        """Set the translation per turn, m."""
+        self._handle.set_pitch(pitch)
+
+
+class UniversalJoint(Joint):
+    """Rotation about a first axis, fixed to the parent, then about a second, fixed to the child."""
+
+    def axis1(self) -> NDArray[np.float64]:
+        """First unit axis in the joint's frame, shape (3,)."""
+        return self._handle.axis1()
+
+    def set_axis1(self, axis: ArrayLike) -> None:
+        """Set the first axis in the joint's frame, shape (3,); it is made a unit vector."""
+        self._handle.set_axis1(axis)
+
+    def axis1_in_world_frame(self) -> NDArray[np.float64]:
+        """First unit axis in the world, shape (3,)."""
+        axis: NDArray[np.float64] = self._handle.world_transform_of_parent_side()[:3, :3] @ self.axis1()
+        return axis
+
+    def axis2(self) -> NDArray[np.float64]:
+        """Second unit axis in the joint's frame, shape (3,)."""
+        return self._handle.axis2()
+
+    def set_axis2(self, axis: ArrayLike) -> None:
+        """Set the second axis in the joint's frame, shape (3,); it is made a unit vector."""
+        self._handle.set_axis2(axis)
+
+    def axis2_in_world_frame(self) -> NDArray[np.float64]:
+        """Second unit axis in the world, shape (3,)."""
+        axis: NDArray[np.float64] = self._handle.world_transform_of_child_side()[:3, :3] @ self.axis2()
+        return axis
+
+
+class EulerJoint(Joint):
+    """Rotation by three Euler angles."""
+
+    def axis_order(self) -> str:
+        """``"XYZ"`` or ``"ZYX"``."""
+        return self._handle.axis_order()
+
+    def set_axis_order(self, axisorder: str) -> None:
+        """Set the order, ``"XYZ"`` or ``"ZYX"``; the engine renames the dofs."""
+        self._handle.set_axis_order(axisorder)
+        self.skeleton._refresh_names()
+
+
+class BallJoint(Joint):
+    """Any rotation; its positions are a rotation vector."""
+
+
+class TranslationalJoint(Joint):
+    """Any translation."""
+
+
+class TranslationalJoint2D(Joint):
+    """Translation in a plane."""
+
+
+class PlanarJoint(Joint):
+    """Translation in a plane and rotation about its normal."""
+
+
+class FreeJoint(Joint):
+    """Any motion; its positions are a rotation vector, then a translation."""
+
+
+_classes: dict[str, type[Joint]] = {
+    cls.__name__: cls
+    for cls in (
+        WeldJoint,
+        RevoluteJoint,
+        PrismaticJoint,
+        ScrewJoint,
+        UniversalJoint,
+        EulerJoint,
+        BallJoint,
+        TranslationalJoint,
+        TranslationalJoint2D,
+        PlanarJoint,
+        FreeJoint,
+    )
+}
+
+
+def create_joint(_skeleton: Skeleton, _id: int) -> Joint:
+    """The joint as an object of its type's class; a plain Joint for types that have none."""
+    return _classes.get(_skeleton._handle.joint(_id).type(), Joint)(_skeleton, _id)

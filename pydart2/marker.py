@@ -1,0 +1,76 @@
+"""Markers: named points of a body."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from pydart2.bodynode import BodyNode
+    from pydart2.skeleton import Skeleton
+
+
+class Marker:
+    """A point that is fixed to a body, as of a motion capture suit.
+
+    Attributes
+    ----------
+    skeleton : Skeleton
+    id : int
+        Index in the skeleton.
+    name : str
+        ``M0003`` and so on; the name in the file is `label`.
+    label : str
+    bodynode : BodyNode
+    """
+
+    bodynode: BodyNode
+
+    def __init__(self, _skeleton: Skeleton, _id: int) -> None:
+        self.skeleton = _skeleton
+        self.id = _id
+        self.name = f"M{_id:04d}"
+        self._handle = _skeleton._handle.marker(_id)
+        self.label = self._handle.name()
+
+    def build(self) -> None:
+        """Link to the body."""
+        self.bodynode = self.skeleton.bodynodes[self._handle.bodynode()]
+        self.bodynode.markers.append(self)
+
+    @property
+    def skel(self) -> Skeleton:
+        """The skeleton."""
+        return self.skeleton
+
+    @property
+    def wid(self) -> int:
+        """Id of the world."""
+        return self.skeleton.world.id
+
+    @property
+    def skid(self) -> int:
+        """Id of the skeleton."""
+        return self.skeleton.id
+
+    @property
+    def p(self) -> NDArray[np.float64]:
+        """Position in the world, shape (3,), m."""
+        return self._handle.world_position()
+
+    def local_position(self) -> NDArray[np.float64]:
+        """Position in the body frame, shape (3,), m."""
+        return self._handle.local_position()
+
+    def set_local_position(self, position: ArrayLike) -> None:
+        """Set the position in the body frame, shape (3,), m."""
+        self._handle.set_local_position(position)
+
+    def world_position(self) -> NDArray[np.float64]:
+        """Position in the world, shape (3,), m."""
+        return self._handle.world_position()
+
+    def __repr__(self) -> str:
+        return f"[Marker({self.id})]"

@@ -1,0 +1,105 @@
+"""Shape nodes: where a shape sits on its body, and what it is for."""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pydart2.shape import Shape, create_shape
+
+if TYPE_CHECKING:
+    from pydart2._native import ShapeNodeHandle
+    from pydart2.bodynode import BodyNode
+    from pydart2.skeleton import Skeleton
+
+_log = logging.getLogger("pydart2")
+
+
+class ShapeNode:
+    """A shape on a body; it is drawn, collides, or both. SKEL files make one node for each purpose.
+
+    Attributes
+    ----------
+    bodynode : BodyNode
+    skeleton : Skeleton
+    id : int
+        Index in the body.
+    name : str
+    shape : Shape or None
+    """
+
+    def __init__(self, _bodynode: BodyNode, _id: int) -> None:
+        self.bodynode = _bodynode
+        self.skeleton = _bodynode.skeleton
+        self.id = _id
+        self._handle: ShapeNodeHandle = _bodynode._handle.shapenode(_id)
+        self.name = self._handle.name()
+        self.shape: Shape | None = create_shape(self)
+
+    def build(self) -> None:
+        """Nothing to do; kept for callers of the original."""
+
+    @property
+    def skel(self) -> Skeleton:
+        """The skeleton."""
+        return self.skeleton
+
+    @property
+    def wid(self) -> int:
+        """Id of the world."""
+        return self.skeleton.world.id
+
+    @property
+    def skid(self) -> int:
+        """Id of the skeleton."""
+        return self.skeleton.id
+
+    @property
+    def bid(self) -> int:
+        """Id of the body."""
+        return self.bodynode.id
+
+    def has_visual_aspect(self) -> bool:
+        """Whether it is drawn."""
+        return self._handle.has_visual_aspect()
+
+    def has_collision_aspect(self) -> bool:
+        """Whether it collides."""
+        return self._handle.has_collision_aspect()
+
+    def visual_aspect_rgba(self) -> NDArray[np.float64] | None:
+        """Colour, shape (4,), 0 to 1; None if it is not drawn."""
+        return self._handle.rgba() if self._handle.has_visual_aspect() else None
+
+    def set_visual_aspect_rgba(self, rgba: ArrayLike) -> None:
+        """Set the colour, shape (4,), 0 to 1. A node that is not drawn has none: a warning is logged."""
+        if self._handle.has_visual_aspect():
+            self._handle.set_rgba(rgba)
+        else:
+            _log.warning("%s is not drawn, so it has no colour to set", self)
+
+    def offset(self) -> NDArray[np.float64]:
+        """Position of the shape in the body frame, shape (3,), m."""
+        return self._handle.offset()
+
+    def set_offset(self, offset: ArrayLike) -> None:
+        """Set the position of the shape in the body frame, shape (3,), m."""
+        self._handle.set_offset(offset)
+
+    def relative_transform(self) -> NDArray[np.float64]:
+        """Pose of the shape in the body frame, shape (4, 4), m."""
+        return self._handle.relative_transform()
+
+    def set_relative_transform(self, transform: ArrayLike) -> None:
+        """Set the pose of the shape in the body frame, shape (4, 4), m."""
+        self._handle.set_relative_transform(transform)
+
+    def world_transform(self) -> NDArray[np.float64]:
+        """Pose of the shape in the world, shape (4, 4), m."""
+        return self._handle.world_transform()
+
+    def __repr__(self) -> str:
+        return f"[ShapeNode({self.bodynode.id}:{self.id})]"

@@ -1,0 +1,89 @@
+"""Vectors over the dofs of a skeleton that are indexed by name as well as by number."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pydart2._native import NamedVector
+from pydart2.indexing import Names
+
+if TYPE_CHECKING:
+    from pydart2.skeleton import Skeleton
+
+
+class SkelVector(NamedVector):
+    """A 1-D array with a name for each entry.
+
+    >>> q = skel.q                      # a copy of the engine's positions
+    >>> q["j_knee"] = 0.4
+    >>> q["j_hip", "j_ankle"] = 0.1, -0.2
+    >>> skel.q = q                      # now the robot has moved
+
+    Integers, slices, masks and everything else of NumPy work as on any array; a tuple or list of names or integers
+    picks these entries. What is picked, and results of the same length, keep their names.
+
+    Parameters
+    ----------
+    data
+        Numbers, shape (n,); used without a copy where that is possible. Default: zeros.
+    skel
+        The skeleton whose dof names the entries get.
+
+    Raises
+    ------
+    NameNotFound
+        On an unknown name, with the nearest one; it is a KeyError and a ValueError.
+    """
+
+    __slots__ = ()
+
+    def __new__(cls, data: Any = None, skel: Skeleton | None = None) -> SkelVector:
+        if data is None:
+            if skel is None:
+                raise TypeError("SkelVector() needs data, a skeleton or both")
+            data = np.zeros(skel.ndofs)
+        vector = np.asarray(data).view(cls)
+        if skel is not None:
+            if vector.shape != (skel.ndofs,):
+                raise ValueError(f"skeleton {skel.name!r} has {skel.ndofs} dofs, got data of shape {vector.shape}")
+            vector._names = skel.names
+        return vector
+
+    @property
+    def skel(self) -> Skeleton | None:
+        """The skeleton whose dofs these are, if there is one."""
+        return None if self._names is None else self._names.skel
+
+    @property
+    def keys(self) -> list[str]:
+        """The names of the entries, in order; empty without names."""
+        return [] if self._names is None else list(self._names.labels)
+
+    def to_index(self, key: str | int) -> int | None:
+        """The non-negative index of a name or integer; None for anything else."""
+        if isinstance(key, str):
+            return self._require_names().index(key)
+        if isinstance(key, (int, np.integer)):
+            return int(key) + len(self) if key < 0 else int(key)
+        return None
+
+    def __contains__(self, key: object) -> bool:
+        """Whether there is an entry of this name."""
+        return self._names is not None and isinstance(key, str) and key in self._names
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restore, (type(self), np.array(self), self.keys or None)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return self.keys
+
+    def _require_names(self) -> Names:
+        return Names(()) if self._names is None else self._names
+
+
+def _restore(cls: type[SkelVector], data: np.ndarray, keys: list[str] | None) -> SkelVector:
+    vector = data.view(cls)
+    vector._names = None if keys is None else Names(keys)
+    return vector

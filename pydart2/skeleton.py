@@ -1,0 +1,463 @@
+"""Skeletons: trees of bodies and joints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pydart2.bodynode import BodyNode
+from pydart2.dof import Dof
+from pydart2.errors import NameNotFound
+from pydart2.indexing import Names
+from pydart2.joint import Joint, create_joint
+from pydart2.marker import Marker
+from pydart2.skel_vector import SkelVector
+
+if TYPE_CHECKING:
+    import os
+
+    from pydart2.world import World
+
+Part = TypeVar("Part", BodyNode, Joint, Dof)
+
+
+class Controller(Protocol):
+    """What a skeleton's controller must have."""
+
+    def compute(self) -> ArrayLike:
+        """The generalized forces for the next step, shape (ndofs,), N m or N."""
+
+
+class Skeleton:
+    """A robot or another articulated body, in a world.
+
+    ``q``, ``dq``, ``ddq`` are copies: change one and assign it back, or write by name with ``set_positions``::
+
+        q = skel.q
+        q["j_knee"] = 0.4
+        skel.q = q
+
+    Attributes
+    ----------
+    world : World
+    id : int
+        Index in the world.
+    filename : str or None
+    controller : object with compute(), or None
+        World.step() applies what it computes as forces.
+    dofs, joints, bodynodes, markers : lists
+        In the engine's order.
+    name_to_dof, name_to_joint, name_to_body : dicts
+    names : Names
+        Dof name → index.
+    """
+
+    def __init__(
+        self,
+        _world: World,
+        _filename: str | os.PathLike[str] | None = None,
+        _id: int | None = None,
+        _friction: float | None = None,
+    ) -> None:
+        self.world = _world
+        self.friction = _friction
+        self.filename: str | None = None
+        if _filename is not None:
+            from pydart2.resources import find_model
+
+            self.filename = find_model(_filename)
+            _id = _world._handle.add_skeleton(self.filename)
+        if _id is None:
+            raise TypeError("Skeleton() needs a file name or an id")
+        self.id = _id
+        self.controller: Controller | None = None
+        self._tau: Any = None
+        self.build()
+
+    def build(self) -> None:
+        """Make all dofs, joints, bodies and markers anew; those made before may no longer be used."""
+        handle = self._handle = self.world._handle.skeleton(self.id)
+        self.dofs = [Dof(self, i) for i in range(handle.num_dofs())]
+        self.joints = [create_joint(self, i) for i in range(handle.num_joints())]
+        self.bodynodes = [BodyNode(self, i) for i in range(handle.num_bodynodes())]
+        self.markers = [Marker(self, i) for i in range(handle.num_markers())]
+        self._refresh_names()
+        for parts in (self.joints, self.bodynodes, self.markers):
+            for part in parts:
+                part.build()
+
+    def _refresh_names(self) -> None:
+        """Read the names of all joints and dofs again: renaming one may change others."""
+        for dof in self.dofs:
+            dof.name = dof._handle.name()
+        for joint in self.joints:
+            joint.name = joint._handle.name()
+        self.name_to_dof = {dof.name: dof for dof in self.dofs}
+        self.name_to_joint = {joint.name: joint for joint in self.joints}
+        self.name_to_body = {body.name: body for body in self.bodynodes}
+        self.names = Names([dof.name for dof in self.dofs], self)
+        self._like = SkelVector(np.zeros(len(self.dofs)), self)
+
+    def set_root_joint_to_trans_and_euler(self) -> None:
+        """Put the root under a TranslationalJoint ``root_t`` and an EulerJoint ``root_r`` (XYZ), by a massless body.
+
+        Positions are not converted. Dofs 0 to 2 are the translation, 3 to 5 the Euler angles of a root that was free.
+        """
+        self._handle.set_root_joint_to_trans_and_euler()
+        self.build()
+
+    def set_root_joint_to_weld(self) -> None:
+        """Weld the root to the world, where it is at q = 0."""
+        self._handle.set_root_joint_to_weld()
+        self.build()
+
+    def set_controller(self, _controller: Controller | None) -> None:
+        """Let a controller act before each step; None for none."""
+        self.controller = _controller
+
+    @property
+    def name(self) -> str:
+        """Name of the skeleton."""
+        return self._handle.name()
+
+    # Structure
+
+    def num_dofs(self) -> int:
+        """How many dofs there are."""
+        return len(self.dofs)
+
+    @property
+    def ndofs(self) -> int:
+        """How many dofs there are."""
+        return len(self.dofs)
+
+    def num_joints(self) -> int:
+        """How many joints there are."""
+        return len(self.joints)
+
+    @property
+    def njoints(self) -> int:
+        """How many joints there are."""
+        return len(self.joints)
+
+    def num_bodynodes(self) -> int:
+        """How many bodies there are."""
+        return len(self.bodynodes)
+
+    @property
+    def nbodies(self) -> int:
+        """How many bodies there are."""
+        return len(self.bodynodes)
+
+    def bodynode(self, query: str | int) -> BodyNode:
+        """A body by name or index; NameNotFound or IndexError if there is none."""
+        return self._find("body", query, self.bodynodes, self.name_to_body)
+
+    def body(self, query: str | int) -> BodyNode:
+        """A body by name or index; NameNotFound or IndexError if there is none."""
+        return self._find("body", query, self.bodynodes, self.name_to_body)
+
+    def joint(self, query: str | int) -> Joint:
+        """A joint by name or index; NameNotFound or IndexError if there is none."""
+        return self._find("joint", query, self.joints, self.name_to_joint)
+
+    def dof(self, query: str | int) -> Dof:
+        """A dof by name or index; NameNotFound or IndexError if there is none."""
+        return self._find("dof", query, self.dofs, self.name_to_dof)
+
+    def _find(self, kind: str, query: str | int, parts: list[Part], by_name: dict[str, Part]) -> Part:
+        if isinstance(query, str):
+            if query not in by_name:
+                raise NameNotFound(kind, query, f"skeleton {self.name!r}", by_name)
+            return by_name[query]
+        if not isinstance(query, (int, np.integer)):
+            raise TypeError(f"a {kind} is found by name or index, not by {query!r}")
+        if not -len(parts) <= query < len(parts):
+            raise IndexError(f"no {kind} {query} in skeleton {self.name!r}: there are {len(parts)}")
+        return parts[query]
+
+    def root_bodynodes(self) -> list[BodyNode]:
+        """The bodies without a parent."""
+        return [body for body in self.bodynodes if body.parent_bodynode is None]
+
+    def root_bodynode(self, index: int = 0) -> BodyNode:
+        """A body without a parent."""
+        return self.root_bodynodes()[index]
+
+    def bodynode_index(self, name: str) -> int:
+        """Index of a body; NameNotFound if there is none of this name."""
+        return self.bodynode(name).id
+
+    def dof_index(self, name: str) -> int:
+        """Index of a dof; NameNotFound if there is none of this name."""
+        return self.names.index(name)
+
+    def dof_indices(self, names: Iterable[str]) -> NDArray[np.intp]:
+        """Indices of dofs, shape (n,), for indexing arrays; NameNotFound if there is none of a name."""
+        return np.array([self.names.index(name) for name in names], dtype=np.intp)
+
+    # Flags and totals
+
+    def is_mobile(self) -> bool:
+        """Whether it moves in a step."""
+        return self._handle.is_mobile()
+
+    def set_mobile(self, is_mobile: bool) -> None:
+        """Let it move in a step or not."""
+        self._handle.set_mobile(is_mobile)
+
+    def self_collision_check(self) -> bool:
+        """Whether its bodies collide with each other; by default they do not."""
+        return self._handle.self_collision_check()
+
+    def set_self_collision_check(self, enable: bool) -> None:
+        """Let its bodies collide with each other or not."""
+        self._handle.set_self_collision_check(enable)
+
+    def adjacent_body_check(self) -> bool:
+        """Whether neighbours collide too, if its bodies collide with each other."""
+        return self._handle.adjacent_body_check()
+
+    def set_adjacent_body_check(self, enable: bool) -> None:
+        """Let neighbours collide too or not, if its bodies collide with each other."""
+        self._handle.set_adjacent_body_check(enable)
+
+    def mass(self) -> float:
+        """Total mass, kg."""
+        return self._handle.mass()
+
+    @property
+    def m(self) -> float:
+        """Total mass, kg."""
+        return self._handle.mass()
+
+    # State
+
+    def positions(self) -> SkelVector:
+        """Generalized positions, shape (ndofs,), rad or m. A copy."""
+        return self._handle.positions(self._like)
+
+    def set_positions(self, _q: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
+        """Set the generalized positions, shape (ndofs,), rad or m.
+
+        Or some of them by name: ``set_positions({"j_knee": 0.4}, j_hip=0.1)``.
+        """
+        self._handle.set_positions(self._merged(self._handle.positions, _q, by_name))
+
+    set_q = set_positions
+
+    @property
+    def q(self) -> SkelVector:
+        """Generalized positions, shape (ndofs,), rad or m. A copy."""
+        return self._handle.positions(self._like)
+
+    @q.setter
+    def q(self, q: ArrayLike) -> None:
+        self._handle.set_positions(q)
+
+    def velocities(self) -> SkelVector:
+        """Generalized velocities, shape (ndofs,), rad/s or m/s. A copy."""
+        return self._handle.velocities(self._like)
+
+    def set_velocities(self, _dq: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
+        """Set the generalized velocities, shape (ndofs,), rad/s or m/s, or some of them by name."""
+        self._handle.set_velocities(self._merged(self._handle.velocities, _dq, by_name))
+
+    set_dq = set_velocities
+
+    @property
+    def dq(self) -> SkelVector:
+        """Generalized velocities, shape (ndofs,), rad/s or m/s. A copy."""
+        return self._handle.velocities(self._like)
+
+    @dq.setter
+    def dq(self, dq: ArrayLike) -> None:
+        self._handle.set_velocities(dq)
+
+    def accelerations(self) -> SkelVector:
+        """Generalized accelerations of the last step, shape (ndofs,), rad/s² or m/s². A copy."""
+        return self._handle.accelerations(self._like)
+
+    def set_accelerations(self, _ddq: ArrayLike) -> None:
+        """Set the generalized accelerations, shape (ndofs,), rad/s² or m/s²."""
+        self._handle.set_accelerations(_ddq)
+
+    @property
+    def ddq(self) -> SkelVector:
+        """Generalized accelerations of the last step, shape (ndofs,), rad/s² or m/s². A copy."""
+        return self._handle.accelerations(self._like)
+
+    @ddq.setter
+    def ddq(self, ddq: ArrayLike) -> None:
+        self._handle.set_accelerations(ddq)
+
+    def states(self) -> NDArray[np.float64]:
+        """[q, dq], shape (2 * ndofs,)."""
+        return self._handle.states()
+
+    def set_states(self, _x: ArrayLike) -> None:
+        """Set [q, dq], shape (2 * ndofs,)."""
+        self._handle.set_states(_x)
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """[q, dq], shape (2 * ndofs,)."""
+        return self._handle.states()
+
+    @x.setter
+    def x(self, x: ArrayLike) -> None:
+        self._handle.set_states(x)
+
+    def position_differences(self, _q1: ArrayLike, _q2: ArrayLike) -> NDArray[np.float64]:
+        """``q1 - q2`` on the configuration manifold (the log map for ball and free joints), shape (ndofs,)."""
+        return self._handle.position_differences(_q1, _q2)
+
+    def velocity_differences(self, _dq1: ArrayLike, _dq2: ArrayLike) -> NDArray[np.float64]:
+        """``dq1 - dq2``, shape (ndofs,)."""
+        return self._handle.velocity_differences(_dq1, _dq2)
+
+    # Limits
+
+    def position_lower_limits(self) -> NDArray[np.float64]:
+        """Lower limits of q, shape (ndofs,), rad or m; -inf for none."""
+        return self._handle.position_lower_limits()
+
+    @property
+    def q_lower(self) -> NDArray[np.float64]:
+        """Lower limits of q, shape (ndofs,), rad or m; -inf for none."""
+        return self._handle.position_lower_limits()
+
+    def position_upper_limits(self) -> NDArray[np.float64]:
+        """Upper limits of q, shape (ndofs,), rad or m; inf for none."""
+        return self._handle.position_upper_limits()
+
+    @property
+    def q_upper(self) -> NDArray[np.float64]:
+        """Upper limits of q, shape (ndofs,), rad or m; inf for none."""
+        return self._handle.position_upper_limits()
+
+    def force_lower_limits(self) -> NDArray[np.float64]:
+        """Lower limits of tau, shape (ndofs,), N m or N; -inf for none."""
+        return self._handle.force_lower_limits()
+
+    @property
+    def tau_lower(self) -> NDArray[np.float64]:
+        """Lower limits of tau, shape (ndofs,), N m or N; -inf for none."""
+        return self._handle.force_lower_limits()
+
+    def force_upper_limits(self) -> NDArray[np.float64]:
+        """Upper limits of tau, shape (ndofs,), N m or N; inf for none."""
+        return self._handle.force_upper_limits()
+
+    @property
+    def tau_upper(self) -> NDArray[np.float64]:
+        """Upper limits of tau, shape (ndofs,), N m or N; inf for none."""
+        return self._handle.force_upper_limits()
+
+    # Dynamics: M ddq + c = tau
+
+    def mass_matrix(self) -> NDArray[np.float64]:
+        """Joint-space mass matrix, shape (ndofs, ndofs), kg m² or kg."""
+        return self._handle.mass_matrix()
+
+    @property
+    def M(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
+        """Joint-space mass matrix, shape (ndofs, ndofs), kg m² or kg."""
+        return self._handle.mass_matrix()
+
+    def inv_mass_matrix(self) -> NDArray[np.float64]:
+        """Inverse of the mass matrix, shape (ndofs, ndofs)."""
+        return self._handle.inv_mass_matrix()
+
+    @property
+    def invM(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
+        """Inverse of the mass matrix, shape (ndofs, ndofs)."""
+        return self._handle.inv_mass_matrix()
+
+    def coriolis_and_gravity_forces(self) -> NDArray[np.float64]:
+        """Coriolis, centrifugal and gravity forces, shape (ndofs,), N m or N."""
+        return self._handle.coriolis_and_gravity_forces()
+
+    @property
+    def c(self) -> NDArray[np.float64]:
+        """Coriolis, centrifugal and gravity forces, shape (ndofs,), N m or N."""
+        return self._handle.coriolis_and_gravity_forces()
+
+    def constraint_forces(self) -> NDArray[np.float64]:
+        """Generalized forces of contacts, limits and constraints in the last step, shape (ndofs,), N m or N."""
+        return self._handle.constraint_forces()
+
+    def forces(self) -> Any:
+        """What was last passed to set_forces(), the same object; zeros before. It stays after the step that used it."""
+        return self._like.copy() if self._tau is None else self._tau
+
+    def set_forces(self, _tau: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
+        """Set the generalized forces of the next step, shape (ndofs,), N m or N; or some by name, the others zero."""
+        self.tau = self._merged(self._like.copy, _tau, by_name)
+
+    set_tau = set_forces
+
+    @property
+    def tau(self) -> Any:
+        """What was last set; zeros before. Setting gives the generalized forces of the next step, N m or N."""
+        return self.forces()
+
+    @tau.setter
+    def tau(self, tau: ArrayLike) -> None:
+        self._handle.set_forces(tau)
+        self._tau = tau
+
+    # Centre of mass
+
+    def com(self) -> NDArray[np.float64]:
+        """Centre of mass, world frame, shape (3,), m."""
+        return self._handle.com()
+
+    @property
+    def C(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
+        """Centre of mass, world frame, shape (3,), m."""
+        return self._handle.com()
+
+    def com_velocity(self) -> NDArray[np.float64]:
+        """Velocity of the centre of mass, world frame, shape (3,), m/s."""
+        return self._handle.com_velocity()
+
+    @property
+    def dC(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
+        """Velocity of the centre of mass, world frame, shape (3,), m/s."""
+        return self._handle.com_velocity()
+
+    def com_acceleration(self) -> NDArray[np.float64]:
+        """Acceleration of the centre of mass, world frame, shape (3,), m/s²."""
+        return self._handle.com_acceleration()
+
+    @property
+    def ddC(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
+        """Acceleration of the centre of mass, world frame, shape (3,), m/s²."""
+        return self._handle.com_acceleration()
+
+    def linear_momentum(self) -> NDArray[np.float64]:
+        """Linear momentum, world frame, shape (3,), kg m/s."""
+        return self.m * self.dC
+
+    @property
+    def P(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
+        """Linear momentum, world frame, shape (3,), kg m/s."""
+        return self.linear_momentum()
+
+    def _merged(self, read: Any, values: ArrayLike | Mapping[str, float] | None, by_name: dict[str, float]) -> Any:
+        """`values` itself, or if it or `by_name` names dofs what `read` gives with these entries changed."""
+        if not by_name and values is not None and not isinstance(values, Mapping):
+            return values
+        if values is not None and not isinstance(values, Mapping):
+            raise TypeError("give a whole vector or entries by name, not both")
+        vector = read() if read == self._like.copy else read(self._like)
+        for name, value in {**(values or {}), **by_name}.items():
+            vector[name] = value
+        return vector
+
+    def __repr__(self) -> str:
+        return f"[Skeleton({self.id}): {self.name}]"

@@ -1,0 +1,294 @@
+"""Worlds: skeletons, time, collisions and recording."""
+
+from __future__ import annotations
+
+import os
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pydart2._native import WorldHandle
+from pydart2.collision_result import CollisionResult
+from pydart2.recording import Recording
+from pydart2.resources import find_model
+from pydart2.skeleton import Skeleton
+
+_DETECTORS = ("dart", "fcl", "bullet", "ode")
+
+
+def create_world(step: float, skel_path: str | os.PathLike[str] | None = None) -> World:
+    """A world with a time step in s, and the content of a SKEL file if one is given."""
+    return World(step, skel_path)
+
+
+class World:
+    """A simulated world.
+
+    >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")
+    >>> while world.t < 2.0:
+    ...     world.step()
+
+    Parameters
+    ----------
+    step
+        Time step, s.
+    skel_path
+        A SKEL file with a world; from the current folder, else among the package's models. Without it the world is
+        empty and its gravity is (0, -9.81, 0).
+
+    Attributes
+    ----------
+    id : int
+    skeletons : list of Skeleton
+    control_skel : Skeleton or None
+        For the user.
+    collision_result : CollisionResult
+        Contacts of the last step.
+    recording : Recording or None
+
+    Raises
+    ------
+    LoadError
+        If the file is missing or cannot be read.
+    """
+
+    DART_COLLISION_DETECTOR: ClassVar[int] = 0
+    FCL_COLLISION_DETECTOR: ClassVar[int] = 1
+    BULLET_COLLISION_DETECTOR: ClassVar[int] = 2
+    ODE_COLLISION_DETECTOR: ClassVar[int] = 3
+
+    #: The class of the skeletons that the world makes.
+    CLASS_SKELETON: ClassVar[type[Skeleton]] = Skeleton
+
+    def __init__(self, step: float, skel_path: str | os.PathLike[str] | None = None) -> None:
+        if skel_path is None:
+            self._handle = WorldHandle(step)
+            self._handle.set_gravity([0.0, -9.81, 0.0])
+        else:
+            self._handle = WorldHandle.load(find_model(skel_path))
+            self._handle.set_time_step(step)
+        self.id: int = self._handle.id()
+        self.control_skel: Skeleton | None = None
+        self.recording: Recording | None = None
+        self.skeletons: list[Skeleton] = []
+        self.collision_result = CollisionResult(self)
+        for i in range(self._handle.num_skeletons()):
+            self.add_skeleton_from_id(i)
+        self.reset()
+        self.enable_recording()
+
+    def destroy(self) -> None:
+        """Free the world; any later use of it or of what is in it raises DestroyedError."""
+        self._handle.destroy()
+
+    # Skeletons
+
+    def add_skeleton(self, filename: str | os.PathLike[str], CLASS: type[Skeleton] | None = None) -> Skeleton:  # noqa: N803
+        """Load a URDF, SDF, SKEL or VSK file and add its skeleton.
+
+        Parameters
+        ----------
+        filename
+            From the current folder, else among the package's models.
+        CLASS
+            Class of the skeleton; default `CLASS_SKELETON`.
+
+        Raises
+        ------
+        LoadError
+            If the file is missing or cannot be read.
+        """
+        skel = (CLASS or self.CLASS_SKELETON)(self, _filename=filename)
+        self.skeletons.append(skel)
+        return skel
+
+    def add_skeleton_from_id(self, _skel_id: int) -> Skeleton:
+        """Make an object for a skeleton that the engine's world has already."""
+        skel = self.CLASS_SKELETON(self, _id=_skel_id)
+        self.skeletons.append(skel)
+        return skel
+
+    def remove_skeleton(self, skel: Skeleton) -> None:
+        """Take a skeleton out of the world, with the constraints that hold it; it can no longer be used."""
+        if skel not in self.skeletons:
+            raise ValueError(f"{skel!r} is not in {self!r}")
+        self._handle.remove_skeleton(skel.id)
+        self.skeletons.remove(skel)
+        for i, other in enumerate(self.skeletons):
+            other.id = i
+
+    def num_skeletons(self) -> int:
+        """How many skeletons there are."""
+        return self._handle.num_skeletons()
+
+    @property
+    def skel(self) -> Skeleton | None:
+        """`control_skel`."""
+        return self.control_skel
+
+    # Time
+
+    def time(self) -> float:
+        """Simulated time, s."""
+        return self._handle.time()
+
+    def set_time(self, time: float) -> None:
+        """Set the simulated time, s."""
+        self._handle.set_time(time)
+
+    @property
+    def t(self) -> float:
+        """Simulated time, s."""
+        return self._handle.time()
+
+    @t.setter
+    def t(self, time: float) -> None:
+        self._handle.set_time(time)
+
+    def time_step(self) -> float:
+        """Time step, s."""
+        return self._handle.time_step()
+
+    def set_time_step(self, _time_step: float) -> None:
+        """Set the time step, s, > 0."""
+        self._handle.set_time_step(_time_step)
+
+    @property
+    def dt(self) -> float:
+        """Time step, s."""
+        return self._handle.time_step()
+
+    @dt.setter
+    def dt(self, time_step: float) -> None:
+        self._handle.set_time_step(time_step)
+
+    @property
+    def frame(self) -> int:
+        """Steps since the last reset."""
+        return self._handle.frame()
+
+    # Simulation
+
+    def reset(self) -> None:
+        """Time 0, initial positions and velocities, no forces; the recording starts again."""
+        self._handle.reset()
+        self.collision_result = CollisionResult(self)
+
+    def step(self, n: int = 1) -> None:
+        """Simulate `n` time steps.
+
+        Before each, skeletons with a controller get the forces that it computes. Forces and external forces act in one
+        step and are cleared after it.
+        """
+        if any(skel.controller is not None for skel in self.skeletons):
+            for _ in range(n):
+                self._apply_controllers()
+                self._handle.step(1)
+        else:
+            self._handle.step(n)
+        self.collision_result.update()
+
+    def _apply_controllers(self) -> None:
+        for skel in self.skeletons:
+            if skel.controller is not None:
+                skel.tau = skel.controller.compute()
+
+    def check_collision(self) -> None:
+        """Find the contacts and their forces for the present state, without a step."""
+        self._handle.check_collision()
+        self.collision_result.update()
+
+    def states(self) -> NDArray[np.float64]:
+        """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,)."""
+        return self._handle.states()
+
+    def set_states(self, _x: ArrayLike) -> None:
+        """Set [q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,)."""
+        self._handle.set_states(_x)
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,)."""
+        return self._handle.states()
+
+    @x.setter
+    def x(self, x: ArrayLike) -> None:
+        self._handle.set_states(x)
+
+    def gravity(self) -> NDArray[np.float64]:
+        """Gravity, shape (3,), m/s²."""
+        return self._handle.gravity()
+
+    def set_gravity(self, _g: ArrayLike) -> None:
+        """Set gravity, shape (3,), m/s²."""
+        self._handle.set_gravity(_g)
+
+    @property
+    def g(self) -> NDArray[np.float64]:
+        """Gravity, shape (3,), m/s²."""
+        return self._handle.gravity()
+
+    @g.setter
+    def g(self, g: ArrayLike) -> None:
+        self._handle.set_gravity(g)
+
+    def remove_all_constraints(self) -> None:
+        """Take away all constraints that were added, as BallJointConstraint."""
+        self._handle.remove_all_constraints()
+
+    def set_collision_detector(self, detector_type: int) -> None:
+        """Set one of the `*_COLLISION_DETECTOR`, 0 to 3; ValueError for any other."""
+        if detector_type not in range(len(_DETECTORS)):
+            raise ValueError(f"no collision detector {detector_type!r}; they are 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE)")
+        self._handle.set_collision_detector(_DETECTORS[detector_type])
+
+    def collision_detector(self) -> int:
+        """One of the `*_COLLISION_DETECTOR`, -1 for another."""
+        name = self._handle.collision_detector()
+        return _DETECTORS.index(name) if name in _DETECTORS else -1
+
+    def collision_detector_string(self) -> str:
+        """Name of the detector's constant, as ``"FCL_COLLISION_DETECTOR"``."""
+        return f"{self._handle.collision_detector().upper()}_COLLISION_DETECTOR"
+
+    # Recording
+
+    def is_recording(self) -> bool:
+        """Whether steps are recorded; by default they are."""
+        return self._handle.is_recording()
+
+    def set_recording(self, enable: bool) -> None:
+        """Record steps or not. Switching on records the present state; switching off forgets the frames."""
+        self._handle.set_recording(enable)
+        if not enable:
+            self.recording = None
+        elif self.recording is None:
+            self.recording = Recording(self)
+
+    def enable_recording(self) -> None:
+        """Record steps from now on."""
+        self.set_recording(True)
+
+    def disable_recording(self) -> None:
+        """Record no steps, and forget the frames."""
+        self.set_recording(False)
+
+    def num_frames(self) -> int:
+        """Frames since the last reset, that is, steps + 1; 0 if not recording."""
+        return self._handle.num_frames()
+
+    @property
+    def nframes(self) -> int:
+        """Frames since the last reset, that is, steps + 1; 0 if not recording."""
+        return self._handle.num_frames()
+
+    def set_frame(self, frame_index: int) -> bool:
+        """Put the states and contacts of a recorded frame back; False if it is not kept. `t` and `frame` stay."""
+        if not self._handle.set_frame(frame_index):
+            return False
+        self.collision_result = CollisionResult.from_rows(self, self._handle.frame_contacts(frame_index))
+        return True
+
+    def __repr__(self) -> str:
+        return f"[World ID:{self.id} time:{self.t:.4f} # frames: {self.num_frames()}]"

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <dart/dynamics/Skeleton.hpp>
+#include <vector>
+
+namespace pydart2 {
+
+/// Where the engine keeps the position, velocity and acceleration of each dof, in the order of the dofs. Reading there
+/// costs a tenth of asking dof after dof. Valid until the tree changes.
+struct DofState
+{
+  explicit DofState(const dart::dynamics::Skeleton& skeleton);
+
+  std::size_t size() const { return positions.size(); }
+
+  std::vector<const double*> positions, velocities, accelerations;
+};
+
+} // namespace pydart2

@@ -1,0 +1,54 @@
+#include "manager.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+void end(WorldRecord& world)
+{
+  {
+    Busy claim(world); // refuses a world that another thread is stepping
+  }
+  world.state.store(WorldRecord::State::destroyed);
+  world.recording.set_enabled(false);
+  world.constraints.clear();
+  world.skeletons.clear();
+  world.world.reset();
+}
+
+} // namespace
+
+Manager& Manager::instance()
+{
+  static Manager manager;
+  return manager;
+}
+
+WorldRef Manager::add(dart::simulation::WorldPtr world)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto record = std::make_shared<WorldRecord>(next_id_++, std::move(world));
+  worlds_.emplace(record->id, record);
+  for (auto it = worlds_.begin(); it != worlds_.end();)
+    it = it->second.expired() ? worlds_.erase(it) : std::next(it);
+  return record;
+}
+
+void Manager::destroy(WorldRecord& world)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  end(world);
+  worlds_.erase(world.id);
+}
+
+void Manager::restart()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (auto& [id, world] : worlds_)
+    if (const auto record = world.lock())
+      end(*record);
+  worlds_.clear();
+  next_id_ = 0;
+}
+
+} // namespace pydart2

@@ -1,0 +1,401 @@
+#include "skeleton.hpp"
+
+#include <algorithm>
+#include <dart/dynamics/EulerJoint.hpp>
+#include <dart/dynamics/TranslationalJoint.hpp>
+#include <dart/dynamics/WeldJoint.hpp>
+
+#include "checks.hpp"
+
+namespace pydart2 {
+
+using dart::dynamics::DegreeOfFreedom;
+
+namespace {
+
+void copy(const Eigen::VectorXd& values, Output& out)
+{
+  vector(out, values.size()) = values;
+}
+
+/// The old joint's frames: at q = 0 the skeleton stands where it stood.
+template <class Properties>
+Properties with_frames(const dart::dynamics::Joint& parent, const dart::dynamics::Joint& child, const std::string& name)
+{
+  Properties properties;
+  properties.mName = name;
+  properties.mT_ParentBodyToJoint = parent.getTransformFromParentBodyNode();
+  properties.mT_ChildBodyToJoint = child.getTransformFromChildBodyNode();
+  return properties;
+}
+
+} // namespace
+
+SkeletonHandle::SkeletonHandle(WorldRef world, SkeletonRef skeleton)
+  : skeleton_(world, skeleton, skeleton->skeleton.get()),
+    dofs_(skeleton->skeleton->getDofs()),
+    state_(*skeleton->skeleton),
+    scratch_(static_cast<long>(dofs_.size()))
+{
+}
+
+void SkeletonHandle::gather(const std::vector<const double*>& places, Output& out) const
+{
+  skeleton_.get();
+  double* value = out.vector(static_cast<long>(places.size()));
+  for (const double* place : places)
+    *value++ = *place;
+}
+
+template <class Read>
+void SkeletonHandle::each_dof(Output& out, Read read) const
+{
+  skeleton_.get();
+  double* value = out.vector(static_cast<long>(dofs_.size()));
+  for (const DegreeOfFreedom* dof : dofs_)
+    *value++ = read(*dof);
+}
+
+const Eigen::VectorXd& SkeletonHandle::per_dof(const VectorIn& values, const char* what)
+{
+  skeleton_.get();
+  check::size(values.size, dofs_.size(), what);
+  check::finite(values, what);
+  scratch_ = values.eigen();
+  return scratch_;
+}
+
+int SkeletonHandle::id() const
+{
+  skeleton_.world->check();
+  return skeleton_.world->index_of(skeleton_.skeleton->skeleton);
+}
+
+std::string SkeletonHandle::name() const
+{
+  return skeleton().getName();
+}
+
+std::string SkeletonHandle::set_name(const std::string& name)
+{
+  return skeleton().setName(name);
+}
+
+double SkeletonHandle::mass() const
+{
+  return skeleton().getMass();
+}
+
+bool SkeletonHandle::is_mobile() const
+{
+  return skeleton().isMobile();
+}
+
+void SkeletonHandle::set_mobile(bool mobile)
+{
+  skeleton().setMobile(mobile);
+}
+
+bool SkeletonHandle::self_collision_check() const
+{
+  return skeleton().getSelfCollisionCheck();
+}
+
+void SkeletonHandle::set_self_collision_check(bool enable)
+{
+  skeleton().setSelfCollisionCheck(enable);
+}
+
+bool SkeletonHandle::adjacent_body_check() const
+{
+  return skeleton().getAdjacentBodyCheck();
+}
+
+void SkeletonHandle::set_adjacent_body_check(bool enable)
+{
+  skeleton().setAdjacentBodyCheck(enable);
+}
+
+int SkeletonHandle::num_bodynodes() const
+{
+  return static_cast<int>(skeleton().getNumBodyNodes());
+}
+
+int SkeletonHandle::num_joints() const
+{
+  return static_cast<int>(skeleton().getNumJoints());
+}
+
+int SkeletonHandle::num_dofs() const
+{
+  return static_cast<int>(skeleton().getNumDofs());
+}
+
+int SkeletonHandle::num_markers() const
+{
+  return static_cast<int>(skeleton().getNumMarkers());
+}
+
+BodyNodeHandle SkeletonHandle::bodynode(long index) const
+{
+  auto& skel = skeleton();
+  auto* body = skel.getBodyNode(check::index(index, skel.getNumBodyNodes(), "bodynode"));
+  return {skeleton_.world, skeleton_.skeleton, body};
+}
+
+JointHandle SkeletonHandle::joint(long index) const
+{
+  auto& skel = skeleton();
+  auto* joint = skel.getJoint(check::index(index, skel.getNumJoints(), "joint"));
+  return {skeleton_.world, skeleton_.skeleton, joint};
+}
+
+DofHandle SkeletonHandle::dof(long index) const
+{
+  auto& skel = skeleton();
+  auto* dof = skel.getDof(check::index(index, skel.getNumDofs(), "dof"));
+  return {skeleton_.world, skeleton_.skeleton, dof};
+}
+
+MarkerHandle SkeletonHandle::marker(long index) const
+{
+  auto& skel = skeleton();
+  auto* marker = skel.getMarker(check::index(index, skel.getNumMarkers(), "marker"));
+  return {skeleton_.world, skeleton_.skeleton, marker};
+}
+
+std::vector<std::string> SkeletonHandle::dof_names() const
+{
+  skeleton_.get();
+  std::vector<std::string> names;
+  for (const auto* dof : dofs_)
+    names.push_back(dof->getName());
+  return names;
+}
+
+void SkeletonHandle::positions(Output& like) const
+{
+  gather(state_.positions, like);
+}
+
+void SkeletonHandle::velocities(Output& like) const
+{
+  gather(state_.velocities, like);
+}
+
+void SkeletonHandle::accelerations(Output& like) const
+{
+  gather(state_.accelerations, like);
+}
+
+void SkeletonHandle::forces(Output& like) const
+{
+  each_dof(like, [](const DegreeOfFreedom& dof) { return dof.getForce(); });
+}
+
+void SkeletonHandle::commands(Output& like) const
+{
+  each_dof(like, [](const DegreeOfFreedom& dof) { return dof.getCommand(); });
+}
+
+void SkeletonHandle::set_positions(const VectorIn& positions)
+{
+  skeleton().setPositions(per_dof(positions, "positions"));
+}
+
+void SkeletonHandle::set_velocities(const VectorIn& velocities)
+{
+  skeleton().setVelocities(per_dof(velocities, "velocities"));
+}
+
+void SkeletonHandle::set_accelerations(const VectorIn& accelerations)
+{
+  skeleton().setAccelerations(per_dof(accelerations, "accelerations"));
+}
+
+void SkeletonHandle::set_forces(const VectorIn& forces)
+{
+  skeleton().setForces(per_dof(forces, "forces"));
+}
+
+void SkeletonHandle::set_commands(const VectorIn& commands)
+{
+  skeleton().setCommands(per_dof(commands, "commands"));
+}
+
+void SkeletonHandle::states(Output& out) const
+{
+  skeleton_.get();
+  double* state = out.vector(2 * static_cast<long>(dofs_.size()));
+  for (const auto* places : {&state_.positions, &state_.velocities})
+    for (const double* place : *places)
+      *state++ = *place;
+}
+
+void SkeletonHandle::set_states(const VectorIn& states)
+{
+  auto& skel = skeleton();
+  check::size(states.size, 2 * dofs_.size(), "states [q, dq]");
+  check::finite(states, "states");
+  skel.setPositions(states.eigen().head(states.size / 2));
+  skel.setVelocities(states.eigen().tail(states.size / 2));
+}
+
+void SkeletonHandle::position_differences(const VectorIn& q1, const VectorIn& q2, Output& out) const
+{
+  auto& skel = skeleton();
+  for (const auto* q : {&q1, &q2}) {
+    check::size(q->size, dofs_.size(), "positions");
+    check::finite(*q, "positions");
+  }
+  copy(skel.getPositionDifferences(q1.eigen(), q2.eigen()), out);
+}
+
+void SkeletonHandle::velocity_differences(const VectorIn& dq1, const VectorIn& dq2, Output& out) const
+{
+  auto& skel = skeleton();
+  for (const auto* dq : {&dq1, &dq2}) {
+    check::size(dq->size, dofs_.size(), "velocities");
+    check::finite(*dq, "velocities");
+  }
+  copy(skel.getVelocityDifferences(dq1.eigen(), dq2.eigen()), out);
+}
+
+void SkeletonHandle::position_lower_limits(Output& out) const
+{
+  each_dof(out, [](const DegreeOfFreedom& dof) { return dof.getPositionLowerLimit(); });
+}
+
+void SkeletonHandle::position_upper_limits(Output& out) const
+{
+  each_dof(out, [](const DegreeOfFreedom& dof) { return dof.getPositionUpperLimit(); });
+}
+
+void SkeletonHandle::force_lower_limits(Output& out) const
+{
+  each_dof(out, [](const DegreeOfFreedom& dof) { return dof.getForceLowerLimit(); });
+}
+
+void SkeletonHandle::force_upper_limits(Output& out) const
+{
+  each_dof(out, [](const DegreeOfFreedom& dof) { return dof.getForceUpperLimit(); });
+}
+
+void SkeletonHandle::mass_matrix(Output& out) const
+{
+  const Eigen::MatrixXd& M = skeleton().getMassMatrix();
+  // M is symmetric, so its columns are its rows.
+  std::copy(M.data(), M.data() + M.size(), out.matrix(M.rows(), M.cols()));
+}
+
+void SkeletonHandle::inv_mass_matrix(Output& out) const
+{
+  const Eigen::MatrixXd& inverse = skeleton().getInvMassMatrix();
+  matrix(out, inverse.rows(), inverse.cols()) = inverse;
+}
+
+void SkeletonHandle::coriolis_and_gravity_forces(Output& out) const
+{
+  copy(skeleton().getCoriolisAndGravityForces(), out);
+}
+
+void SkeletonHandle::coriolis_forces(Output& out) const
+{
+  copy(skeleton().getCoriolisForces(), out);
+}
+
+void SkeletonHandle::gravity_forces(Output& out) const
+{
+  copy(skeleton().getGravityForces(), out);
+}
+
+void SkeletonHandle::external_forces(Output& out) const
+{
+  copy(skeleton().getExternalForces(), out);
+}
+
+void SkeletonHandle::constraint_forces(Output& out) const
+{
+  copy(skeleton().getConstraintForces(), out);
+}
+
+Eigen::Vector3d SkeletonHandle::com() const
+{
+  return skeleton().getCOM();
+}
+
+Eigen::Vector3d SkeletonHandle::com_velocity() const
+{
+  return skeleton().getCOMLinearVelocity();
+}
+
+Eigen::Vector3d SkeletonHandle::com_acceleration() const
+{
+  return skeleton().getCOMLinearAcceleration();
+}
+
+double SkeletonHandle::kinetic_energy() const
+{
+  return skeleton().computeKineticEnergy();
+}
+
+double SkeletonHandle::potential_energy() const
+{
+  return skeleton().computePotentialEnergy();
+}
+
+void SkeletonHandle::clear_external_forces()
+{
+  skeleton().clearExternalForces();
+}
+
+void SkeletonHandle::clear_impulse()
+{
+  skeleton().clearConstraintImpulses();
+}
+
+void SkeletonHandle::check_tree_can_change(const char* what) const
+{
+  if (skeleton().getNumBodyNodes() == 0)
+    throw Error(Kind::value, std::string(what) + " needs a skeleton with a body; '" + name() + "' has none");
+  for (const auto& record : skeleton_.world->constraints)
+    if (record.skeleton1 == skeleton_.skeleton->skeleton || record.skeleton2 == skeleton_.skeleton->skeleton)
+      throw Error(
+          Kind::value,
+          std::string(what) + " cannot change skeleton '" + name()
+              + "' while a constraint holds it; call world.remove_all_constraints() first");
+}
+
+void SkeletonHandle::tree_changed()
+{
+  ++skeleton_.skeleton->structure;
+}
+
+void SkeletonHandle::set_root_joint_to_trans_and_euler()
+{
+  using namespace dart::dynamics;
+  check_tree_can_change("set_root_joint_to_trans_and_euler()");
+  auto& skel = skeleton();
+  BodyNode* old_root = skel.getRootBodyNode();
+  const Joint& joint = *old_root->getParentJoint();
+  auto translation = with_frames<TranslationalJoint::Properties>(joint, joint, "root_t");
+  auto rotation = with_frames<EulerJoint::Properties>(joint, joint, "root_r");
+  translation.mT_ChildBodyToJoint.setIdentity();
+  rotation.mT_ParentBodyToJoint.setIdentity();
+  BodyNode* root = skel.createJointAndBodyNodePair<TranslationalJoint>(nullptr, translation).second;
+  root->setMass(0.0);
+  old_root->moveTo<EulerJoint>(root, rotation);
+  tree_changed();
+}
+
+void SkeletonHandle::set_root_joint_to_weld()
+{
+  using namespace dart::dynamics;
+  check_tree_can_change("set_root_joint_to_weld()");
+  BodyNode* root = skeleton().getRootBodyNode();
+  const Joint& joint = *root->getParentJoint();
+  root->changeParentJointType<WeldJoint>(with_frames<WeldJoint::Properties>(joint, joint, joint.getName()));
+  tree_changed();
+}
+
+} // namespace pydart2

@@ -1,0 +1,391 @@
+#include "world.hpp"
+
+#include <algorithm>
+#include <dart/collision/bullet/BulletCollisionDetector.hpp>
+#include <dart/collision/dart/DARTCollisionDetector.hpp>
+#include <dart/collision/fcl/FCLCollisionDetector.hpp>
+#include <dart/collision/ode/OdeCollisionDetector.hpp>
+#include <dart/constraint/BallJointConstraint.hpp>
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/dynamics/SoftBodyNode.hpp>
+
+#include "checks.hpp"
+#include "contact.hpp"
+#include "errors.hpp"
+#include "loading.hpp"
+#include "manager.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+dart::simulation::WorldPtr make_world(double time_step)
+{
+  check::positive(time_step, "time step");
+  auto world = dart::simulation::World::create();
+  world->setTimeStep(time_step);
+  return world;
+}
+
+long num_states(const WorldRecord& world)
+{
+  long size = 0;
+  for (const auto& record : world.skeletons)
+    size += 2 * static_cast<long>(record->skeleton->getNumDofs());
+  return size;
+}
+
+void write_states(const WorldRecord& world, double* out)
+{
+  for (const auto& record : world.skeletons) {
+    const auto& dofs = record->skeleton->getDofs();
+    for (const auto* dof : dofs)
+      *out++ = dof->getPosition();
+    for (const auto* dof : dofs)
+      *out++ = dof->getVelocity();
+  }
+}
+
+void read_states(WorldRecord& world, const double* in)
+{
+  for (const auto& record : world.skeletons) {
+    auto& skeleton = *record->skeleton;
+    const auto n = static_cast<long>(skeleton.getNumDofs());
+    skeleton.setPositions(Eigen::Map<const Eigen::VectorXd>(in, n));
+    skeleton.setVelocities(Eigen::Map<const Eigen::VectorXd>(in + n, n));
+    in += 2 * n;
+  }
+}
+
+void record(WorldRecord& world)
+{
+  Frame frame;
+  frame.state.resize(static_cast<std::size_t>(num_states(world)));
+  write_states(world, frame.state.data());
+  frame.contacts = pack_contacts(world);
+  world.recording.add(std::move(frame));
+}
+
+void reset_skeleton(dart::dynamics::Skeleton& skeleton)
+{
+  skeleton.resetCommands();
+  skeleton.resetPositions();
+  skeleton.resetVelocities();
+  skeleton.resetAccelerations();
+  skeleton.resetGeneralizedForces();
+  skeleton.clearExternalForces();
+  skeleton.clearConstraintImpulses();
+  for (std::size_t i = 0; i < skeleton.getNumSoftBodyNodes(); ++i)
+    for (auto* point : skeleton.getSoftBodyNode(i)->getPointMasses()) {
+      point->resetPositions();
+      point->resetVelocities();
+      point->resetAccelerations();
+      point->resetForces();
+    }
+}
+
+const Frame& kept_frame(const WorldRecord& world, long index)
+{
+  const Frame* frame = world.recording.find(index);
+  if (frame == nullptr)
+    throw Error(
+        Kind::index,
+        "frame " + std::to_string(index) + " is not kept; the recording has frames "
+            + std::to_string(world.recording.first_frame()) + " to " + std::to_string(world.recording.num_frames() - 1));
+  return *frame;
+}
+
+void write_contacts(const std::vector<double>& rows, Output& out)
+{
+  std::copy(rows.begin(), rows.end(), out.matrix(static_cast<long>(rows.size()) / contact_columns, contact_columns));
+}
+
+} // namespace
+
+void restart()
+{
+  Manager::instance().restart();
+}
+
+WorldHandle::WorldHandle(dart::simulation::WorldPtr world) : record_(Manager::instance().add(std::move(world))) {}
+
+WorldHandle::WorldHandle(double time_step) : WorldHandle(make_world(time_step)) {}
+
+WorldHandle WorldHandle::load(const std::string& skel_path)
+{
+  return WorldHandle(load_world(skel_path));
+}
+
+WorldRecord& WorldHandle::world() const
+{
+  record_->check();
+  return *record_;
+}
+
+void WorldHandle::destroy()
+{
+  if (record_->state != WorldRecord::State::destroyed)
+    Manager::instance().destroy(*record_);
+}
+
+int WorldHandle::num_skeletons() const
+{
+  return static_cast<int>(world().skeletons.size());
+}
+
+SkeletonHandle WorldHandle::skeleton(long index) const
+{
+  const auto& skeletons = world().skeletons;
+  return {record_, skeletons[check::index(index, skeletons.size(), "skeleton")]};
+}
+
+int WorldHandle::add_skeleton(const std::string& path)
+{
+  Busy busy(*record_);
+  auto skeleton = load_skeleton(path);
+  record_->world->addSkeleton(skeleton);
+  record_->skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton}));
+  return static_cast<int>(record_->skeletons.size()) - 1;
+}
+
+void WorldHandle::remove_skeleton(long index)
+{
+  auto& record = world();
+  const auto i = check::index(index, record.skeletons.size(), "skeleton");
+  const auto skeleton = record.skeletons[i]->skeleton;
+  auto& solver = *record.world->getConstraintSolver();
+  for (auto it = record.constraints.begin(); it != record.constraints.end();) {
+    const bool uses = it->skeleton1 == skeleton || it->skeleton2 == skeleton;
+    if (uses)
+      solver.removeConstraint(it->constraint);
+    it = uses ? record.constraints.erase(it) : std::next(it);
+  }
+  solver.clearLastCollisionResult(); // it points to collision objects that go
+  record.world->removeSkeleton(skeleton);
+  ++record.skeletons[i]->structure; // parts of a skeleton without a world are refused
+  record.skeletons.erase(record.skeletons.begin() + static_cast<long>(i));
+}
+
+double WorldHandle::time() const
+{
+  return world().world->getTime();
+}
+
+void WorldHandle::set_time(double time)
+{
+  check::finite(time, "time");
+  world().world->setTime(time);
+}
+
+double WorldHandle::time_step() const
+{
+  return world().world->getTimeStep();
+}
+
+void WorldHandle::set_time_step(double time_step)
+{
+  check::positive(time_step, "time step");
+  world().world->setTimeStep(time_step);
+}
+
+Eigen::Vector3d WorldHandle::gravity() const
+{
+  return world().world->getGravity();
+}
+
+void WorldHandle::set_gravity(const Eigen::Vector3d& gravity)
+{
+  check::finite(gravity, "gravity");
+  world().world->setGravity(gravity);
+}
+
+long WorldHandle::frame() const
+{
+  return world().frame;
+}
+
+void WorldHandle::reset()
+{
+  auto& record = world();
+  record.world->reset();
+  for (const auto& skeleton : record.skeletons)
+    reset_skeleton(*skeleton->skeleton);
+  record.frame = 0;
+  if (record.recording.enabled())
+    clear_recording();
+}
+
+void WorldHandle::step(long count)
+{
+  if (count < 0)
+    throw Error(Kind::value, "the number of steps must be zero or positive, got " + std::to_string(count));
+  Busy busy(*record_);
+  for (long i = 0; i < count; ++i) {
+    record_->world->step();
+    ++record_->frame;
+    if (record_->recording.enabled())
+      record(*record_);
+  }
+}
+
+void WorldHandle::check_collision()
+{
+  Busy busy(*record_);
+  pydart2::check_collision(*record_);
+}
+
+void WorldHandle::states(Output& out) const
+{
+  const auto& record = world();
+  write_states(record, out.vector(num_states(record)));
+}
+
+void WorldHandle::set_states(const VectorIn& states)
+{
+  auto& record = world();
+  check::size(states.size, static_cast<std::size_t>(num_states(record)), "world states");
+  check::finite(states, "world states");
+  read_states(record, states.data);
+}
+
+std::string WorldHandle::collision_detector() const
+{
+  return world().world->getConstraintSolver()->getCollisionDetector()->getType();
+}
+
+void WorldHandle::set_collision_detector(const std::string& name)
+{
+  auto& solver = *world().world->getConstraintSolver();
+  dart::collision::CollisionDetectorPtr detector;
+  if (name == "dart")
+    detector = dart::collision::DARTCollisionDetector::create();
+  else if (name == "fcl")
+    detector = dart::collision::FCLCollisionDetector::create();
+  else if (name == "bullet")
+    detector = dart::collision::BulletCollisionDetector::create();
+  else if (name == "ode")
+    detector = dart::collision::OdeCollisionDetector::create();
+  else
+    throw Error(Kind::value, "no collision detector '" + name + "'; there are dart, fcl, bullet and ode");
+  solver.clearLastCollisionResult(); // it points to objects of the old detector
+  solver.setCollisionDetector(detector);
+}
+
+int WorldHandle::num_contacts() const
+{
+  return static_cast<int>(world().world->getLastCollisionResult().getNumContacts());
+}
+
+void WorldHandle::contacts(Output& out) const
+{
+  write_contacts(pack_contacts(world()), out);
+}
+
+void WorldHandle::add_ball_joint_constraint(
+    const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point)
+{
+  auto& record = world();
+  check::finite(point, "joint position");
+  auto& a = body1.body();
+  auto& b = body2.body();
+  if (record.index_of(a.getSkeleton()) < 0 || record.index_of(b.getSkeleton()) < 0)
+    throw Error(Kind::value, "both bodies of a constraint must be in the world that it is added to");
+  if (&a == &b)
+    throw Error(Kind::value, "a constraint needs two different bodies, got '" + a.getName() + "' twice");
+  auto constraint = std::make_shared<dart::constraint::BallJointConstraint>(&a, &b, point);
+  record.world->getConstraintSolver()->addConstraint(constraint);
+  record.constraints.push_back({constraint, a.getSkeleton(), b.getSkeleton()});
+}
+
+int WorldHandle::num_constraints() const
+{
+  return static_cast<int>(world().constraints.size());
+}
+
+void WorldHandle::remove_all_constraints()
+{
+  auto& record = world();
+  record.world->getConstraintSolver()->removeAllConstraints();
+  record.constraints.clear();
+}
+
+bool WorldHandle::is_recording() const
+{
+  return world().recording.enabled();
+}
+
+void WorldHandle::set_recording(bool enable)
+{
+  auto& record = world();
+  if (enable == record.recording.enabled())
+    return;
+  record.recording.set_enabled(enable);
+  if (enable)
+    pydart2::record(record);
+}
+
+long WorldHandle::num_frames() const
+{
+  return world().recording.num_frames();
+}
+
+long WorldHandle::first_frame() const
+{
+  return world().recording.first_frame();
+}
+
+bool WorldHandle::set_frame(long index)
+{
+  auto& record = world();
+  const Frame* frame = record.recording.find(index);
+  if (frame == nullptr || static_cast<long>(frame->state.size()) > num_states(record))
+    return false;
+  // A skeleton that was added after this frame keeps its state.
+  std::vector<double> states(static_cast<std::size_t>(num_states(record)));
+  write_states(record, states.data());
+  std::copy(frame->state.begin(), frame->state.end(), states.begin());
+  read_states(record, states.data());
+  return true;
+}
+
+void WorldHandle::frame_states(long index, Output& out) const
+{
+  const auto& state = kept_frame(world(), index).state;
+  std::copy(state.begin(), state.end(), out.vector(static_cast<long>(state.size())));
+}
+
+void WorldHandle::frame_contacts(long index, Output& out) const
+{
+  write_contacts(kept_frame(world(), index).contacts, out);
+}
+
+void WorldHandle::clear_recording()
+{
+  auto& record = world();
+  record.recording.clear();
+  pydart2::record(record);
+}
+
+void WorldHandle::record_frame()
+{
+  record(world());
+}
+
+long WorldHandle::recording_bytes() const
+{
+  return static_cast<long>(world().recording.bytes());
+}
+
+long WorldHandle::recording_limit() const
+{
+  return static_cast<long>(world().recording.limit());
+}
+
+void WorldHandle::set_recording_limit(long bytes)
+{
+  if (bytes < 0)
+    throw Error(Kind::value, "the recording limit must be zero or more bytes, got " + std::to_string(bytes));
+  world().recording.set_limit(static_cast<std::size_t>(bytes));
+}
+
+} // namespace pydart2

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "arrays.hpp"
+#include "bodynode.hpp"
+#include "skeleton.hpp"
+#include "world_record.hpp"
+
+namespace pydart2 {
+
+/// Ends all worlds and starts ids at 0 again.
+void restart();
+
+/// dart::simulation::World, its contacts and its recording.
+class WorldHandle
+{
+public:
+  /// An empty world with DART's own gravity.
+  explicit WorldHandle(double time_step);
+
+  /// The world of a SKEL file.
+  static WorldHandle load(const std::string& skel_path);
+
+  int id() const { return record_->id; }
+  void destroy();
+
+  int num_skeletons() const;
+  SkeletonHandle skeleton(long index) const;
+
+  /// Loads a URDF, SDF, SKEL or VSK skeleton; returns its index.
+  int add_skeleton(const std::string& path);
+  void remove_skeleton(long index);
+
+  double time() const;
+  void set_time(double time);
+  double time_step() const;
+  void set_time_step(double time_step);
+  Eigen::Vector3d gravity() const;
+  void set_gravity(const Eigen::Vector3d& gravity);
+
+  long frame() const;
+
+  /// Time 0, initial positions and velocities, no forces, no impulses, a new recording.
+  void reset();
+  void step(long count);
+  void check_collision();
+
+  /// [q, dq] of each skeleton, one after another.
+  void states(Output& out) const;
+  void set_states(const VectorIn& states);
+
+  /// "dart", "fcl", "bullet" or "ode".
+  std::string collision_detector() const;
+  void set_collision_detector(const std::string& name);
+
+  int num_contacts() const;
+
+  /// One row per contact (contact.hpp).
+  void contacts(Output& out) const;
+
+  void add_ball_joint_constraint(const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point);
+  int num_constraints() const;
+  void remove_all_constraints();
+
+  bool is_recording() const;
+  void set_recording(bool enable);
+  long num_frames() const;
+  long first_frame() const;
+
+  /// Puts the states of a recorded frame back; false if it is not kept. Time and frame stay as they are.
+  bool set_frame(long index);
+  void frame_states(long index, Output& out) const;
+  void frame_contacts(long index, Output& out) const;
+  void clear_recording();
+  void record_frame();
+  long recording_bytes() const;
+  long recording_limit() const;
+  void set_recording_limit(long bytes);
+
+private:
+  explicit WorldHandle(dart::simulation::WorldPtr world);
+  WorldRecord& world() const;
+
+  WorldRef record_;
+};
+
+} // namespace pydart2

@@ -1,0 +1,36 @@
+#include "world_record.hpp"
+
+#include "errors.hpp"
+
+namespace pydart2 {
+
+WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world) : id(id), world(std::move(world))
+{
+  for (std::size_t i = 0; i < this->world->getNumSkeletons(); ++i)
+    skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i)}));
+}
+
+int WorldRecord::index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const
+{
+  for (std::size_t i = 0; i < skeletons.size(); ++i)
+    if (skeletons[i]->skeleton == skeleton)
+      return static_cast<int>(i);
+  return -1;
+}
+
+void WorldRecord::refuse() const
+{
+  const std::string name = "world " + std::to_string(id);
+  if (state.load() == State::busy)
+    throw Error(Kind::engine, name + " is in use by another thread; give each thread a world of its own");
+  throw Error(Kind::destroyed, name + " was destroyed by destroy() or by a later init(); make a new World");
+}
+
+Busy::Busy(WorldRecord& world) : world_(world)
+{
+  auto expected = WorldRecord::State::ready;
+  if (!world.state.compare_exchange_strong(expected, WorldRecord::State::busy))
+    world.check();
+}
+
+} // namespace pydart2

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <atomic>
+#include <dart/dynamics/Skeleton.hpp>
+#include <dart/simulation/World.hpp>
+#include <memory>
+#include <vector>
+
+#include "recording.hpp"
+
+namespace pydart2 {
+
+/// A skeleton of a world, shared by all handles into it.
+struct SkeletonRecord
+{
+  dart::dynamics::SkeletonPtr skeleton;
+
+  /// Counts changes of the tree: a handle to a body, joint or dof made before the last one is refused.
+  int structure = 0;
+};
+using SkeletonRef = std::shared_ptr<SkeletonRecord>;
+
+/// A constraint between bodies, with the skeletons that it needs alive.
+struct ConstraintRecord
+{
+  dart::constraint::ConstraintBasePtr constraint;
+  dart::dynamics::SkeletonPtr skeleton1, skeleton2;
+};
+
+/// A world and what belongs to it, shared by all handles into it.
+struct WorldRecord
+{
+  /// busy: a call that released the interpreter lock is inside the engine.
+  enum class State { ready, busy, destroyed };
+
+  WorldRecord(int id, dart::simulation::WorldPtr world);
+
+  /// Throws unless this world may be used now.
+  void check() const
+  {
+    if (state.load(std::memory_order_acquire) != State::ready)
+      refuse();
+  }
+
+  /// Index of a skeleton in this world, -1 if it is not in it.
+  int index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const;
+
+  const int id;
+  dart::simulation::WorldPtr world;
+  std::vector<SkeletonRef> skeletons;
+  std::vector<ConstraintRecord> constraints;
+  std::atomic<State> state{State::ready};
+  long frame = 0; ///< Steps since the last reset.
+  Recording recording;
+
+private:
+  [[noreturn]] void refuse() const;
+};
+using WorldRef = std::shared_ptr<WorldRecord>;
+
+/// Marks a world busy for the time of a long call, so that a second thread is refused instead of racing.
+class Busy
+{
+public:
+  explicit Busy(WorldRecord& world);
+  ~Busy() { world_.state.store(WorldRecord::State::ready, std::memory_order_release); }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+private:
+  WorldRecord& world_;
+};
+
+} // namespace pydart2

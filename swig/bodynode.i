@@ -1,0 +1,7 @@
+%{
+#include "bodynode.hpp"
+%}
+
+%ignore pydart2::BodyNodeHandle::BodyNodeHandle; // handles come from their skeleton
+%ignore pydart2::BodyNodeHandle::body;
+%include "bodynode.hpp"

@@ -1,0 +1,6 @@
+%{
+#include "joint.hpp"
+%}
+
+%ignore pydart2::JointHandle::JointHandle; // handles come from their skeleton
+%include "joint.hpp"

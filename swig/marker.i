@@ -1,0 +1,6 @@
+%{
+#include "marker.hpp"
+%}
+
+%ignore pydart2::MarkerHandle::MarkerHandle; // handles come from their skeleton
+%include "marker.hpp"

@@ -1,0 +1,241 @@
+#pragma once
+
+#include <Python.h>
+#include <numpy/arrayobject.h>
+#include <numpy/arrayscalars.h>
+
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "arrays.hpp"
+#include "errors.hpp"
+#include "named_vector.hpp"
+
+/// What the typemaps call: NumPy in, NumPy out, exceptions across.
+namespace pydart2::python {
+
+/// Thrown where a Python error is set already.
+struct ErrorIsSet
+{
+};
+
+/// A fresh ndarray that a method fills; with set_like(v), one with the type and names of v.
+class NumpyOutput : public Output
+{
+public:
+  NumpyOutput() = default;
+  NumpyOutput(const NumpyOutput&) = delete;
+  NumpyOutput& operator=(const NumpyOutput&) = delete;
+  ~NumpyOutput() override { Py_XDECREF(array_); }
+
+  void set_like(PyObject* like) { like_ = like; }
+
+  double* vector(long size) override
+  {
+    npy_intp shape = size;
+    Py_XSETREF(array_, like_ ? named_vector::new_like(like_) : PyArray_SimpleNew(1, &shape, NPY_DOUBLE));
+    if (array_ != nullptr && PyArray_DIM(as_array(), 0) != size)
+      PyErr_SetString(PyExc_ValueError, "the skeleton's dofs have changed; call its build()");
+    return data();
+  }
+
+  double* matrix(long rows, long cols) override
+  {
+    npy_intp shape[] = {rows, cols};
+    Py_XSETREF(array_, PyArray_SimpleNew(2, shape, NPY_DOUBLE));
+    return data();
+  }
+
+  PyObject* release()
+  {
+    PyObject* array = array_;
+    array_ = nullptr;
+    return array;
+  }
+
+private:
+  PyArrayObject* as_array() const { return reinterpret_cast<PyArrayObject*>(array_); }
+
+  double* data()
+  {
+    if (array_ == nullptr || PyErr_Occurred())
+      throw ErrorIsSet{};
+    return static_cast<double*>(PyArray_DATA(as_array()));
+  }
+
+  PyObject* array_ = nullptr;
+  PyObject* like_ = nullptr;
+};
+
+/// Releases the interpreter lock for the time of a long call.
+class WithoutGil
+{
+public:
+  WithoutGil() : state_(PyEval_SaveThread()) {}
+  ~WithoutGil() { PyEval_RestoreThread(state_); }
+  WithoutGil(const WithoutGil&) = delete;
+  WithoutGil& operator=(const WithoutGil&) = delete;
+
+private:
+  PyThreadState* state_;
+};
+
+/// Raises pydart2.errors.<name>.
+inline void raise_own(const char* name, const char* message)
+{
+  PyObject* module = PyImport_ImportModule("pydart2.errors");
+  PyObject* type = module == nullptr ? nullptr : PyObject_GetAttrString(module, name);
+  if (type != nullptr)
+    PyErr_SetString(type, message);
+  Py_XDECREF(type);
+  Py_XDECREF(module);
+}
+
+/// Turns the C++ exception that is being handled into a Python one.
+inline void set_error()
+{
+  try {
+    throw;
+  } catch (const ErrorIsSet&) {
+  } catch (const Error& error) {
+    switch (error.kind()) {
+    case Kind::value: PyErr_SetString(PyExc_ValueError, error.what()); break;
+    case Kind::type: PyErr_SetString(PyExc_TypeError, error.what()); break;
+    case Kind::index: PyErr_SetString(PyExc_IndexError, error.what()); break;
+    case Kind::load: raise_own("LoadError", error.what()); break;
+    case Kind::destroyed: raise_own("DestroyedError", error.what()); break;
+    case Kind::engine: raise_own("PydartError", error.what()); break;
+    }
+  } catch (const std::bad_alloc&) {
+    PyErr_NoMemory();
+  } catch (const std::exception& error) {
+    raise_own("PydartError", error.what());
+  } catch (...) {
+    raise_own("PydartError", "the engine threw something unknown");
+  }
+}
+
+/// The object as a C-contiguous float64 array (new reference); null with TypeError set, naming the argument.
+inline PyArrayObject* to_array(PyObject* object, const char* what)
+{
+  if (PyArray_Check(object)) {
+    auto* array = reinterpret_cast<PyArrayObject*>(object);
+    if (PyArray_TYPE(array) == NPY_DOUBLE && PyArray_ISCARRAY_RO(array))
+      return reinterpret_cast<PyArrayObject*>(Py_NewRef(object));
+  }
+  auto* array = reinterpret_cast<PyArrayObject*>(PyArray_FROM_OTF(object, NPY_DOUBLE, NPY_ARRAY_CARRAY_RO));
+  if (array == nullptr) {
+    PyErr_Clear();
+    PyErr_Format(PyExc_TypeError, "%s needs numbers, got %.200R", what, object);
+  }
+  return array;
+}
+
+inline void raise_shape(const char* what, const std::string& expected, PyArrayObject* got)
+{
+  PyObject* shape = PyObject_GetAttrString(reinterpret_cast<PyObject*>(got), "shape");
+  PyErr_Format(PyExc_ValueError, "%s needs shape %s, got %R", what, expected.c_str(), shape);
+  Py_XDECREF(shape);
+}
+
+/// A 1-D argument of any length; `owner` keeps its memory. False with an error set.
+inline bool read_vector(PyObject* object, const char* what, PyArrayObject*& owner, VectorIn& vector)
+{
+  owner = to_array(object, what);
+  if (owner == nullptr)
+    return false;
+  if (PyArray_NDIM(owner) != 1) {
+    raise_shape(what, "(n,)", owner);
+    return false;
+  }
+  vector = {static_cast<const double*>(PyArray_DATA(owner)), static_cast<long>(PyArray_DIM(owner, 0))};
+  return true;
+}
+
+/// An argument of the fixed size of an Eigen vector or matrix. False with an error set.
+template <class Matrix>
+bool read_fixed(PyObject* object, const char* what, Matrix& out)
+{
+  constexpr int rows = Matrix::RowsAtCompileTime, cols = Matrix::ColsAtCompileTime;
+  PyArrayObject* array = to_array(object, what);
+  if (array == nullptr)
+    return false;
+  const bool fits = cols == 1 ? PyArray_NDIM(array) == 1 && PyArray_DIM(array, 0) == rows
+                              : PyArray_NDIM(array) == 2 && PyArray_DIM(array, 0) == rows && PyArray_DIM(array, 1) == cols;
+  if (fits) {
+    using Rows = Eigen::Matrix<double, rows, cols, cols == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+    out = Eigen::Map<const Rows>(static_cast<const double*>(PyArray_DATA(array)));
+  } else {
+    const std::string n = std::to_string(rows);
+    raise_shape(what, cols == 1 ? "(" + n + ",)" : "(" + n + ", " + std::to_string(cols) + ")", array);
+  }
+  Py_DECREF(array);
+  return fits;
+}
+
+/// A fresh ndarray with an Eigen vector (1-D) or matrix (2-D, row-major).
+template <class Matrix>
+PyObject* to_numpy(const Matrix& matrix)
+{
+  constexpr int rows = Matrix::RowsAtCompileTime, cols = Matrix::ColsAtCompileTime;
+  npy_intp shape[] = {rows, cols};
+  PyObject* array = PyArray_SimpleNew(cols == 1 ? 1 : 2, shape, NPY_DOUBLE);
+  if (array != nullptr) {
+    using Rows = Eigen::Matrix<double, rows, cols, cols == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+    Eigen::Map<Rows>(static_cast<double*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))) = matrix;
+  }
+  return array;
+}
+
+inline PyObject* to_list(const std::vector<std::string>& texts)
+{
+  PyObject* list = PyList_New(static_cast<Py_ssize_t>(texts.size()));
+  for (std::size_t i = 0; list != nullptr && i < texts.size(); ++i) {
+    PyObject* text = PyUnicode_DecodeUTF8(texts[i].data(), static_cast<Py_ssize_t>(texts[i].size()), "surrogateescape");
+    if (text == nullptr)
+      Py_CLEAR(list);
+    else
+      PyList_SET_ITEM(list, static_cast<Py_ssize_t>(i), text);
+  }
+  return list;
+}
+
+/// Python's bool and int, NumPy's bool and integers. False with TypeError set.
+inline bool read_bool(PyObject* object, const char* what, bool& out)
+{
+  if (!PyLong_Check(object) && !PyArray_IsScalar(object, Bool) && !PyArray_IsScalar(object, Integer)) {
+    PyErr_Format(PyExc_TypeError, "%s must be True or False, got %.200R", what, object);
+    return false;
+  }
+  out = PyObject_IsTrue(object) == 1;
+  return true;
+}
+
+inline bool read_long(PyObject* object, const char* what, long& out)
+{
+  PyObject* index = PyNumber_Index(object);
+  if (index == nullptr) {
+    PyErr_Format(PyExc_TypeError, "%s must be an integer, got %.200R", what, object);
+    return false;
+  }
+  int overflow = 0;
+  out = PyLong_AsLongAndOverflow(index, &overflow);
+  Py_DECREF(index);
+  if (overflow != 0)
+    PyErr_Format(PyExc_IndexError, "%s %.200R is too large", what, object);
+  return overflow == 0;
+}
+
+inline bool read_double(PyObject* object, const char* what, double& out)
+{
+  out = PyFloat_AsDouble(object);
+  if (out == -1.0 && PyErr_Occurred()) {
+    PyErr_Format(PyExc_TypeError, "%s must be a number, got %.200R", what, object);
+    return false;
+  }
+  return true;
+}
+
+} // namespace pydart2::python

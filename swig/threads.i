@@ -1,0 +1,17 @@
+// Long calls run without the interpreter lock; the world is marked busy meanwhile (world_record.hpp).
+%define %long_call(METHOD)
+%exception METHOD {
+  try {
+    pydart2::python::WithoutGil without_gil;
+    $action
+  } catch (...) {
+    pydart2::python::set_error();
+    SWIG_fail;
+  }
+}
+%enddef
+
+%long_call(pydart2::WorldHandle::load)
+%long_call(pydart2::WorldHandle::add_skeleton)
+%long_call(pydart2::WorldHandle::step)
+%long_call(pydart2::WorldHandle::check_collision)

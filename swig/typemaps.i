@@ -1,0 +1,53 @@
+// Eigen <-> NumPy and lenient scalars. Shapes are checked here and nowhere else; the work is in numpy_glue.hpp.
+%include "std_string.i"
+
+namespace pydart2 {
+class Output;
+struct VectorIn;
+}
+
+// Results that an engine method writes straight into a fresh ndarray.
+%typemap(in, numinputs=0) pydart2::Output& out (pydart2::python::NumpyOutput numpy) "$1 = &numpy;"
+// The same with the names of the vector that is passed in.
+%typemap(in) pydart2::Output& like (pydart2::python::NumpyOutput numpy) { numpy.set_like($input); $1 = &numpy; }
+%typemap(argout) pydart2::Output& out, pydart2::Output& like {
+  Py_DECREF($result);
+  $result = numpy$argnum.release();
+}
+
+%typemap(in) const pydart2::VectorIn& (pydart2::VectorIn vector, PyArrayObject* owner = nullptr) {
+  if (!pydart2::python::read_vector($input, "$1_name", owner, vector)) SWIG_fail;
+  $1 = &vector;
+}
+%typemap(freearg) const pydart2::VectorIn& "Py_XDECREF(owner$argnum);"
+
+%define %fixed_size(TYPE)
+%feature("novaluewrapper") TYPE;
+class TYPE;
+%typemap(in) const TYPE& (TYPE fixed) {
+  if (!pydart2::python::read_fixed($input, "$1_name", fixed)) SWIG_fail;
+  $1 = &fixed;
+}
+%typemap(in) const TYPE* (TYPE fixed) {
+  if ($input == Py_None)
+    $1 = nullptr;
+  else if (pydart2::python::read_fixed($input, "$1_name", fixed))
+    $1 = &fixed;
+  else
+    SWIG_fail;
+}
+%typemap(out) TYPE "$result = pydart2::python::to_numpy($1);"
+%enddef
+
+%fixed_size(Eigen::Vector3d)
+%fixed_size(Eigen::Vector4d)
+%fixed_size(Eigen::Matrix3d)
+%fixed_size(Eigen::Matrix4d)
+%feature("novaluewrapper") pydart2::Vector6d;
+%typemap(out) pydart2::Vector6d "$result = pydart2::python::to_numpy($1);"
+
+%typemap(out) std::vector<std::string> "$result = pydart2::python::to_list($1);"
+
+%typemap(in) bool "if (!pydart2::python::read_bool($input, \"$1_name\", $1)) SWIG_fail;"
+%typemap(in) long "if (!pydart2::python::read_long($input, \"$1_name\", $1)) SWIG_fail;"
+%typemap(in) double "if (!pydart2::python::read_double($input, \"$1_name\", $1)) SWIG_fail;"

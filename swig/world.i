@@ -1,0 +1,5 @@
+%{
+#include "world.hpp"
+%}
+
+%include "world.hpp"

@@ -1,0 +1,29 @@
+"""Fixtures of all tests."""
+
+from __future__ import annotations
+
+import pytest
+from oracle.fixtures import cpp_oracle, oracle  # noqa: F401 (fixtures)
+from oracle.models import dart_model
+
+import pydart2
+
+
+@pytest.fixture
+def cubes() -> pydart2.World:
+    """A world with a ground and three cubes."""
+    return pydart2.World(0.001, pydart2.data_path("skel/cubes.skel"))
+
+
+@pytest.fixture
+def atlas() -> pydart2.Skeleton:
+    """Atlas alone in a world with gravity along z."""
+    world = pydart2.World(0.001)
+    world.set_gravity([0.0, 0.0, -9.81])
+    return world.add_skeleton(pydart2.data_path("sdf/atlas/atlas_v3_no_head.sdf"))
+
+
+@pytest.fixture
+def fullbody() -> pydart2.World:
+    """DART's humanoid on a ground."""
+    return pydart2.World(0.001, dart_model("skel/fullbody1.skel"))

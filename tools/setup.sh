@@ -1,0 +1,50 @@
+#!/bin/sh
+# From a bare Debian 12 to an installed checkout: Debian packages, .venv, build and install. Says what it does; does
+# nothing twice. PYTHON is the interpreter that .venv is made with.
+set -eu
+cd "$(dirname "$0")/.."
+python=${PYTHON:-python3}
+venv=${VENV:-.venv}
+
+say() { echo "setup: $*"; }
+
+# To build; to make a virtual environment with Debian's own Python; for the tests (DART's own models, the oracle).
+packages="g++ cmake make swig libdart-all-dev python3-venv python3-dev dart-doc python3-dartpy python3-numpy"
+missing=
+for package in $packages; do
+  dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing="$missing $package"
+done
+if [ -n "$missing" ]; then
+  say "installing Debian packages:$missing"
+  sudo=
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || { say "run as root, or install:$missing"; exit 1; }
+    sudo=sudo
+  fi
+  $sudo apt-get update -qq
+  DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq --no-install-recommends $missing >/dev/null
+fi
+
+if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then
+  say "pydart2 needs Python 3.11 or newer; set PYTHON to one (make PYTHON=python3.12 ...)"
+  exit 1
+fi
+if [ ! -x "$venv/bin/pip" ]; then
+  say "making $venv with $("$python" --version)"
+  "$python" -m venv "$venv"
+fi
+
+# The build's own requirements, then the package with all that its tests need; again when one of its sources changes.
+if [ -z "$(find "$venv/.requirements" -newer pyproject.toml 2>/dev/null)" ]; then
+  say "installing the build requirements"
+  "$venv/bin/pip" install --quiet --upgrade 'setuptools>=70.1' 'numpy>=2.0'
+  touch "$venv/.requirements"
+fi
+newer=$(find setup.py pyproject.toml CMakeLists.txt src swig tools/make_stub.py "$venv/.requirements" \
+  -newer "$venv/.installed" 2>/dev/null || echo all)
+if [ ! -e "$venv/.installed" ] || [ -n "$newer" ] || ! ls pydart2/_pydart2_api.*.so >/dev/null 2>&1; then
+  say "building and installing pydart2 (a minute or two)"
+  "$venv/bin/pip" install --quiet --no-build-isolation -e '.[dev]'
+  touch "$venv/.installed"
+fi
+say "ready"
