@@ -1,11 +1,12 @@
 # make demo   set up, then the first examples
 # make test   set up, then the tests
+# make test-packaging, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
 export PYTHON VENV
 
-.PHONY: demo test lint setup clean
+.PHONY: demo test test-packaging bench lint setup clean
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
@@ -13,6 +14,13 @@ demo: setup
 
 test: setup lint
 	$(VENV)/bin/python -m pytest
+
+test-packaging: setup
+	$(VENV)/bin/python -m pytest -m packaging
+
+bench: setup
+	$(VENV)/bin/python benchmarks/step_overhead.py
+	$(VENV)/bin/python benchmarks/reading.py
 
 lint: setup
 	$(VENV)/bin/ruff check .

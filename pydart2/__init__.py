@@ -38,6 +38,7 @@ from pydart2.shape import Shape
 from pydart2.shapenode import ShapeNode
 from pydart2.skel_vector import SkelVector
 from pydart2.skeleton import Skeleton
+from pydart2.softbody import SoftBodyNode
 from pydart2.world import World, create_world
 
 if TYPE_CHECKING:
@@ -67,6 +68,7 @@ __all__ = [
     "SimulationError",
     "SkelVector",
     "Skeleton",
+    "SoftBodyNode",
     "TranslationalJoint",
     "TranslationalJoint2D",
     "UniversalJoint",

@@ -9,6 +9,7 @@ from pydart2.pydart2_api import (
     ShapeHandle,
     ShapeNodeHandle,
     SkeletonHandle,
+    SoftBodyHandle,
     WorldHandle,
     restart,
 )
@@ -22,6 +23,7 @@ __all__ = [
     "ShapeHandle",
     "ShapeNodeHandle",
     "SkeletonHandle",
+    "SoftBodyHandle",
     "WorldHandle",
     "restart",
 ]

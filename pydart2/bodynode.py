@@ -58,6 +58,7 @@ class BodyNode:
         self.dependent_dofs: list[Dof] = []
         self.markers: list[Marker] = []
         self.shapenodes: list[ShapeNode] = []
+        self._arrows: list[tuple[int, NDArray[np.float64], NDArray[np.float64]]] = []
 
     def build(self) -> None:
         """Link to the other parts of the skeleton."""
@@ -269,6 +270,33 @@ class BodyNode:
         """Angular (rad/s²) and linear (m/s²) acceleration of the centre of mass, body coordinates, shape (6,)."""
         return self._handle.com_spatial_acceleration()
 
+    def world_linear_velocity(self, offset: ArrayLike | None = None) -> NDArray[np.float64]:
+        """Velocity of a point, world frame, shape (3,), m/s."""
+        return self._handle.linear_velocity(offset)
+
+    def world_angular_velocity(self) -> NDArray[np.float64]:
+        """Angular velocity, world frame, shape (3,), rad/s."""
+        return self._handle.angular_velocity()
+
+    def world_spatial_velocity(self, offset: ArrayLike | None = None) -> NDArray[np.float64]:
+        """Angular (rad/s) and linear (m/s) velocity of a point, world frame, shape (6,)."""
+        return self._handle.spatial_velocity(offset)
+
+    def world_linear_acceleration(self, offset: ArrayLike | None = None) -> NDArray[np.float64]:
+        """Acceleration of a point, world frame, shape (3,), m/s²."""
+        return self._handle.linear_acceleration(offset)
+
+    def world_angular_acceleration(self) -> NDArray[np.float64]:
+        """Angular acceleration, world frame, shape (3,), rad/s²."""
+        return self._handle.angular_acceleration()
+
+    def world_spatial_acceleration(self, offset: ArrayLike | None = None) -> NDArray[np.float64]:
+        """Spatial acceleration (Featherstone's) of a point, world frame, angular then linear, shape (6,).
+
+        Its linear part lacks the term ``angular velocity × velocity`` of world_linear_acceleration().
+        """
+        return self._handle.spatial_acceleration(offset)
+
     def linear_momentum(self) -> NDArray[np.float64]:
         """Linear momentum as the engine gives it, body coordinates, shape (3,), kg m/s."""
         return self._handle.linear_momentum()
@@ -315,6 +343,40 @@ class BodyNode:
         """Like add_ext_torque(), in place of what was added before."""
         self._handle.set_ext_torque(_torque, _isLocal)
 
+    def add_ext_force_with_arrow(
+        self,
+        _force: ArrayLike,
+        _offset: ArrayLike | None = None,
+        _isForceLocal: bool = False,  # noqa: N803 (the original's)
+        _isOffsetLocal: bool = True,  # noqa: N803
+    ) -> None:
+        """Like add_ext_force(), and noted in `force_arrows` to be drawn until the next step is over."""
+        self.add_ext_force(_force, _offset, _isForceLocal, _isOffsetLocal)
+        self._note_arrow(_force, _offset, _isForceLocal, _isOffsetLocal)
+
+    def set_ext_force_with_arrow(
+        self,
+        _force: ArrayLike,
+        _offset: ArrayLike | None = None,
+        _isForceLocal: bool = False,  # noqa: N803 (the original's)
+        _isOffsetLocal: bool = True,  # noqa: N803
+    ) -> None:
+        """Like set_ext_force(), and noted in `force_arrows` to be drawn until the next step is over."""
+        self.set_ext_force(_force, _offset, _isForceLocal, _isOffsetLocal)
+        self._arrows = []
+        self._note_arrow(_force, _offset, _isForceLocal, _isOffsetLocal)
+
+    @property
+    def force_arrows(self) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Where the noted forces act (3,), m, and the forces (3,), N, both in the world frame."""
+        return [(p.copy(), f.copy()) for frame, p, f in self._arrows if self.world.frame <= frame + 1]
+
+    def _note_arrow(self, force: ArrayLike, offset: ArrayLike | None, force_local: bool, offset_local: bool) -> None:
+        point = self.to_world(offset) if offset_local or offset is None else np.array(offset, dtype=float)
+        vector = self.T[:3, :3] @ np.asarray(force) if force_local else np.array(force, dtype=float)
+        frame = self.world.frame
+        self._arrows = [arrow for arrow in self._arrows if arrow[0] == frame] + [(frame, point, vector)]
+
     # Jacobians
 
     def jacobian(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
@@ -346,6 +408,10 @@ class BodyNode:
     def dJ(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
         """Time derivative of J, shape (3, ndofs)."""
         return self._handle.linear_jacobian_deriv(None, True)
+
+    def world_jacobian_classic_deriv(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+        """Time derivative of world_jacobian(), shape (6, n): times dq, what ``J ddq`` lacks of the acceleration."""
+        return self._handle.world_jacobian_classic_deriv(offset, full)
 
     def angular_jacobian_deriv(self, full: bool = True) -> NDArray[np.float64]:
         """Time derivative of angular_jacobian(), shape (3, n)."""

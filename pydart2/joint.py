@@ -199,6 +199,30 @@ class Joint:
         """Set the Coulomb friction of its dof `index`, N m or N, >= 0."""
         self._dof(index).set_coulomb_friction(friction)
 
+    def command(self, index: int) -> float:
+        """Command to its dof `index`, in the unit of the actuator type."""
+        return self._dof(index).command()
+
+    def set_command(self, index: int, command: float) -> None:
+        """Set the command to its dof `index` for the next step."""
+        self._dof(index).set_command(command)
+
+    def get_local_transform(self) -> NDArray[np.float64]:
+        """Pose of the child body in the parent body, shape (4, 4), m."""
+        return self._handle.relative_transform()
+
+    def get_world_frame_before_transform(self) -> NDArray[np.float64]:
+        """The joint's frame on the parent's side, before its motion, in the world, shape (4, 4), m."""
+        return self._handle.world_transform_of_parent_side()
+
+    def get_world_frame_after_transform(self) -> NDArray[np.float64]:
+        """The joint's frame on the child's side, after its motion, in the world, shape (4, 4), m."""
+        return self._handle.world_transform_of_child_side()
+
+    def orientation_in_world_frame(self) -> NDArray[np.float64]:
+        """Axes of the joint's frame on the child's side, in the world, shape (3, 3)."""
+        return self._handle.world_transform_of_child_side()[:3, :3].copy()
+
     def _dof(self, index: int) -> Dof:
         if not 0 <= index < len(self.dofs):
             raise IndexError(f"joint {self.name!r} has {len(self.dofs)} dofs, so no dof {index}")
@@ -304,7 +328,42 @@ class EulerJoint(Joint):
         self.skeleton._refresh_names()
 
 
-class BallJoint(Joint):
+class _WithState(Joint):
+    def position(self) -> NDArray[np.float64]:
+        """Positions of its dofs, shape (n,), rad and m."""
+        return np.array([dof.position() for dof in self.dofs])
+
+    def set_position(self, position: ArrayLike) -> None:
+        """Set the positions of its dofs, shape (n,), rad and m."""
+        for dof, value in zip(self.dofs, self._per_dof(position), strict=True):
+            dof.set_position(value)
+
+    def velocity(self) -> NDArray[np.float64]:
+        """Velocities of its dofs, shape (n,), rad/s and m/s."""
+        return np.array([dof.velocity() for dof in self.dofs])
+
+    def set_velocity(self, velocity: ArrayLike) -> None:
+        """Set the velocities of its dofs, shape (n,), rad/s and m/s."""
+        for dof, value in zip(self.dofs, self._per_dof(velocity), strict=True):
+            dof.set_velocity(value)
+
+    def acceleration(self) -> NDArray[np.float64]:
+        """Accelerations of its dofs, shape (n,), rad/s² and m/s²."""
+        return np.array([dof.acceleration() for dof in self.dofs])
+
+    def set_acceleration(self, acceleration: ArrayLike) -> None:
+        """Set the accelerations of its dofs, shape (n,), rad/s² and m/s²."""
+        for dof, value in zip(self.dofs, self._per_dof(acceleration), strict=True):
+            dof.set_acceleration(value)
+
+    def _per_dof(self, values: ArrayLike) -> NDArray[np.float64]:
+        array = np.asarray(values, dtype=float)
+        if array.shape != (len(self.dofs),):
+            raise ValueError(f"joint {self.name!r} has {len(self.dofs)} dofs, got shape {array.shape}")
+        return array
+
+
+class BallJoint(_WithState):
     """Any rotation; its positions are a rotation vector."""
 
 
@@ -320,7 +379,7 @@ class PlanarJoint(Joint):
     """Translation in a plane and rotation about its normal."""
 
 
-class FreeJoint(Joint):
+class FreeJoint(_WithState):
     """Any motion; its positions are a rotation vector, then a translation."""
 
 

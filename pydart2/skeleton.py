@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2 import spd
 from pydart2.bodynode import BodyNode
 from pydart2.dof import Dof
 from pydart2.errors import NameNotFound
@@ -15,6 +16,7 @@ from pydart2.indexing import Names
 from pydart2.joint import Joint, create_joint
 from pydart2.marker import Marker
 from pydart2.skel_vector import SkelVector
+from pydart2.softbody import SoftBodyNode
 
 if TYPE_CHECKING:
     import os
@@ -82,12 +84,15 @@ class Skeleton:
         handle = self._handle = self.world._handle.skeleton(self.id)
         self.dofs = [Dof(self, i) for i in range(handle.num_dofs())]
         self.joints = [create_joint(self, i) for i in range(handle.num_joints())]
-        self.bodynodes = [BodyNode(self, i) for i in range(handle.num_bodynodes())]
+        self.bodynodes = [self._make_body(i) for i in range(handle.num_bodynodes())]
         self.markers = [Marker(self, i) for i in range(handle.num_markers())]
         self._refresh_names()
         for parts in (self.joints, self.bodynodes, self.markers):
             for part in parts:
                 part.build()
+
+    def _make_body(self, index: int) -> BodyNode:
+        return (SoftBodyNode if self._handle.bodynode(index).is_soft() else BodyNode)(self, index)
 
     def _refresh_names(self) -> None:
         """Read the names of all joints and dofs again: renaming one may change others."""
@@ -245,7 +250,7 @@ class Skeleton:
 
         Or some of them by name: ``set_positions({"j_knee": 0.4}, j_hip=0.1)``.
         """
-        self._handle.set_positions(self._merged(self._handle.positions, _q, by_name))
+        self._handle.set_positions(self._vector(_q, by_name, "q"))
 
     set_q = set_positions
 
@@ -264,7 +269,7 @@ class Skeleton:
 
     def set_velocities(self, _dq: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized velocities, shape (ndofs,), rad/s or m/s, or some of them by name."""
-        self._handle.set_velocities(self._merged(self._handle.velocities, _dq, by_name))
+        self._handle.set_velocities(self._vector(_dq, by_name, "dq"))
 
     set_dq = set_velocities
 
@@ -396,7 +401,7 @@ class Skeleton:
 
     def set_forces(self, _tau: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized forces of the next step, shape (ndofs,), N m or N; or some by name, the others zero."""
-        self.tau = self._merged(self._like.copy, _tau, by_name)
+        self.tau = self._vector(_tau, by_name, "")
 
     set_tau = set_forces
 
@@ -409,6 +414,56 @@ class Skeleton:
     def tau(self, tau: ArrayLike) -> None:
         self._handle.set_forces(tau)
         self._tau = tau
+
+    def commands(self) -> SkelVector:
+        """Commands to the actuators, shape (ndofs,), in the unit of each joint's actuator type. A copy."""
+        return self._handle.commands(self._like)
+
+    def set_commands(self, _commands: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
+        """Set the commands of the next step, shape (ndofs,), or some by name.
+
+        A command is a force for FORCE joints, a velocity for SERVO and VELOCITY, an acceleration for ACCELERATION.
+        """
+        self._handle.set_commands(self._vector(_commands, by_name, "comms"))
+
+    @property
+    def comms(self) -> SkelVector:
+        """Commands to the actuators, shape (ndofs,). A copy."""
+        return self._handle.commands(self._like)
+
+    @comms.setter
+    def comms(self, commands: ArrayLike) -> None:
+        self._handle.set_commands(commands)
+
+    def clear_impulse(self) -> None:
+        """Forget the impulses of contacts, limits and constraints."""
+        self._handle.clear_impulse()
+
+    def update_fk(self) -> None:
+        """Compute all poses, velocities and accelerations now; without it each is computed when it is read."""
+        self._handle.update_fk()
+
+    # Stable PD control (spd.py)
+
+    def get_spd(self, q_des: ArrayLike, h: float, Kp: ArrayLike, Kd: ArrayLike) -> NDArray[np.float64]:  # noqa: N803
+        """Forces of a stable PD controller towards a pose, without regard to contacts, shape (ndofs,), N m or N."""
+        return spd.forces(self, h, Kp, Kd, q_des, external=np.zeros(self.ndofs))
+
+    def get_spd_forces(self, q_des: ArrayLike, h: float, Kp: ArrayLike, Kd: ArrayLike) -> NDArray[np.float64]:  # noqa: N803
+        """Forces of a stable PD controller towards a pose, with the last step's contacts, shape (ndofs,), N m or N."""
+        return spd.forces(self, h, Kp, Kd, q_des)
+
+    def get_spd_extended(
+        self,
+        q_des: ArrayLike,
+        dq_des: ArrayLike,
+        ddq_des: ArrayLike,
+        h: float,
+        Kp: ArrayLike,  # noqa: N803 (the field's name)
+        Kd: ArrayLike,  # noqa: N803
+    ) -> NDArray[np.float64]:
+        """Forces of a stable PD controller along a trajectory, with the last step's contacts, shape (ndofs,)."""
+        return spd.forces(self, h, Kp, Kd, q_des, dq_des, ddq_des)
 
     # Centre of mass
 
@@ -439,6 +494,10 @@ class Skeleton:
         """Acceleration of the centre of mass, world frame, shape (3,), m/s²."""
         return self._handle.com_acceleration()
 
+    def com_spatial_velocity(self) -> NDArray[np.float64]:
+        """Angular (rad/s) and linear (m/s) velocity of the centre of mass, world frame, shape (6,)."""
+        return self._handle.com_spatial_velocity()
+
     def linear_momentum(self) -> NDArray[np.float64]:
         """Linear momentum, world frame, shape (3,), kg m/s."""
         return self.m * self.dC
@@ -448,13 +507,13 @@ class Skeleton:
         """Linear momentum, world frame, shape (3,), kg m/s."""
         return self.linear_momentum()
 
-    def _merged(self, read: Any, values: ArrayLike | Mapping[str, float] | None, by_name: dict[str, float]) -> Any:
-        """`values` itself, or if it or `by_name` names dofs what `read` gives with these entries changed."""
-        if not by_name and values is not None and not isinstance(values, Mapping):
-            return values
+    def _vector(self, values: ArrayLike | Mapping[str, float] | None, by_name: dict[str, float], rest: str) -> Any:
+        """A whole vector as it is; entries by name in the vector of the name `rest`, or in zeros if that is empty."""
         if values is not None and not isinstance(values, Mapping):
-            raise TypeError("give a whole vector or entries by name, not both")
-        vector = read() if read == self._like.copy else read(self._like)
+            if by_name:
+                raise TypeError("give a whole vector or entries by name, not both")
+            return values
+        vector = getattr(self, rest) if rest else self._like.copy()
         for name, value in {**(values or {}), **by_name}.items():
             vector[name] = value
         return vector

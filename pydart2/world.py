@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2._native import WorldHandle
+from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
 from pydart2.recording import Recording
 from pydart2.resources import find_model
@@ -36,6 +37,8 @@ class World:
     skel_path
         A SKEL file with a world; from the current folder, else among the package's models. Without it the world is
         empty and its gravity is (0, -9.81, 0).
+    xmlstr
+        Whether `skel_path` is not a path but the SKEL text itself.
 
     Attributes
     ----------
@@ -45,6 +48,8 @@ class World:
         For the user.
     collision_result : CollisionResult
         Contacts of the last step.
+    collision_filter : CollisionFilter
+        Pairs of bodies that pass through each other.
     recording : Recording or None
 
     Raises
@@ -61,18 +66,21 @@ class World:
     #: The class of the skeletons that the world makes.
     CLASS_SKELETON: ClassVar[type[Skeleton]] = Skeleton
 
-    def __init__(self, step: float, skel_path: str | os.PathLike[str] | None = None) -> None:
+    def __init__(self, step: float, skel_path: str | os.PathLike[str] | None = None, xmlstr: bool = False) -> None:
         if skel_path is None:
             self._handle = WorldHandle(step)
             self._handle.set_gravity([0.0, -9.81, 0.0])
+        elif xmlstr:
+            self._handle = WorldHandle.load_text(os.fspath(skel_path))
         else:
             self._handle = WorldHandle.load(find_model(skel_path))
-            self._handle.set_time_step(step)
+        self._handle.set_time_step(step)
         self.id: int = self._handle.id()
         self.control_skel: Skeleton | None = None
         self.recording: Recording | None = None
         self.skeletons: list[Skeleton] = []
         self.collision_result = CollisionResult(self)
+        self.collision_filter = CollisionFilter(self)
         for i in range(self._handle.num_skeletons()):
             self.add_skeleton_from_id(i)
         self.reset()
@@ -236,6 +244,10 @@ class World:
     def remove_all_constraints(self) -> None:
         """Take away all constraints that were added, as BallJointConstraint."""
         self._handle.remove_all_constraints()
+
+    def create_collision_filter(self) -> CollisionFilter:
+        """The pairs of bodies that pass through each other, to be changed; also `collision_filter`."""
+        return self.collision_filter
 
     def set_collision_detector(self, detector_type: int) -> None:
         """Set one of the `*_COLLISION_DETECTOR`, 0 to 3; ValueError for any other."""

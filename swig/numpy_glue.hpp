@@ -154,6 +154,20 @@ inline bool read_vector(PyObject* object, const char* what, PyArrayObject*& owne
   return true;
 }
 
+/// A 2-D argument of any shape; `owner` keeps its memory. False with an error set.
+inline bool read_matrix(PyObject* object, const char* what, PyArrayObject*& owner, MatrixIn& matrix)
+{
+  owner = to_array(object, what);
+  if (owner == nullptr)
+    return false;
+  if (PyArray_NDIM(owner) != 2) {
+    raise_shape(what, "(n, m)", owner);
+    return false;
+  }
+  matrix = {static_cast<const double*>(PyArray_DATA(owner)), PyArray_DIM(owner, 0), PyArray_DIM(owner, 1)};
+  return true;
+}
+
 /// An argument of the fixed size of an Eigen vector or matrix. False with an error set.
 template <class Matrix>
 bool read_fixed(PyObject* object, const char* what, Matrix& out)

@@ -19,6 +19,7 @@
 %include "joint.i"
 %include "marker.i"
 %include "shape.i"
+%include "soft_body.i"
 %include "bodynode.i"
 %include "skeleton.i"
 %include "world.i"

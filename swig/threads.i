@@ -12,6 +12,7 @@
 %enddef
 
 %long_call(pydart2::WorldHandle::load)
+%long_call(pydart2::WorldHandle::load_text)
 %long_call(pydart2::WorldHandle::add_skeleton)
 %long_call(pydart2::WorldHandle::step)
 %long_call(pydart2::WorldHandle::check_collision)

@@ -4,6 +4,7 @@
 namespace pydart2 {
 class Output;
 struct VectorIn;
+struct MatrixIn;
 }
 
 // Results that an engine method writes straight into a fresh ndarray.
@@ -20,6 +21,11 @@ struct VectorIn;
   $1 = &vector;
 }
 %typemap(freearg) const pydart2::VectorIn& "Py_XDECREF(owner$argnum);"
+%typemap(in) const pydart2::MatrixIn& (pydart2::MatrixIn matrix, PyArrayObject* owner = nullptr) {
+  if (!pydart2::python::read_matrix($input, "$1_name", owner, matrix)) SWIG_fail;
+  $1 = &matrix;
+}
+%typemap(freearg) const pydart2::MatrixIn& "Py_XDECREF(owner$argnum);"
 
 %define %fixed_size(TYPE)
 %feature("novaluewrapper") TYPE;

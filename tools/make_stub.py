@@ -23,6 +23,8 @@ ARGUMENTS = {"bool": "bool", "long": "int", "double": "float", "const std::strin
 
 HEAD = '''"""The C++ layer: one handle per engine object. Made by tools/make_stub.py."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -31,6 +33,8 @@ from pydart2.skel_vector import SkelVector
 
 class NamedVector(np.ndarray[tuple[int], np.dtype[np.float64]]):
     _names: Names | None
+    def __getitem__(self, key: Any) -> Any: ...
+    def __setitem__(self, key: Any, value: Any) -> None: ...
 
 def restart() -> None: ...
 '''

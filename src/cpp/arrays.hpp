@@ -13,6 +13,13 @@ struct VectorIn
   Eigen::Map<const Eigen::VectorXd> eigen() const { return {data, size}; }
 };
 
+/// Rows of numbers from the caller, row-major, contiguous, not owned.
+struct MatrixIn
+{
+  const double* data = nullptr;
+  long rows = 0, cols = 0;
+};
+
 /// Where a method puts its result. The method asks once for memory of the shape that it is about to fill, so that
 /// the engine's numbers are copied once, straight into what the caller gets (a fresh ndarray, swig/typemaps.i).
 class Output

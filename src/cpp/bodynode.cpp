@@ -10,6 +10,8 @@ using dart::dynamics::BodyNode;
 
 namespace {
 
+const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+
 /// Calls `change` with the dynamics aspect of every shape that has one; returns whether there was any.
 template <class Change>
 bool each_contact_shape(BodyNode& body, Change change)
@@ -107,6 +109,14 @@ ShapeNodeHandle BodyNodeHandle::shapenode(long index) const
 bool BodyNodeHandle::is_soft() const
 {
   return body_->asSoftBodyNode() != nullptr;
+}
+
+SoftBodyHandle BodyNodeHandle::soft_body() const
+{
+  auto* soft = body_->asSoftBodyNode();
+  if (soft == nullptr)
+    throw Error(Kind::type, "body '" + name() + "' is rigid");
+  return {body_.world, body_.skeleton, soft};
 }
 
 bool BodyNodeHandle::gravity_mode() const
@@ -232,6 +242,38 @@ Vector6d BodyNodeHandle::com_spatial_acceleration() const
   return body_->getCOMSpatialAcceleration();
 }
 
+Eigen::Vector3d BodyNodeHandle::linear_velocity(const Eigen::Vector3d* offset) const
+{
+  return offset == nullptr ? body_->getLinearVelocity() : body_->getLinearVelocity(*offset);
+}
+
+Eigen::Vector3d BodyNodeHandle::linear_acceleration(const Eigen::Vector3d* offset) const
+{
+  return offset == nullptr ? body_->getLinearAcceleration() : body_->getLinearAcceleration(*offset);
+}
+
+Eigen::Vector3d BodyNodeHandle::angular_velocity() const
+{
+  return body_->getAngularVelocity();
+}
+
+Eigen::Vector3d BodyNodeHandle::angular_acceleration() const
+{
+  return body_->getAngularAcceleration();
+}
+
+Vector6d BodyNodeHandle::spatial_velocity(const Eigen::Vector3d* offset) const
+{
+  using dart::dynamics::Frame;
+  return body_->getSpatialVelocity(offset == nullptr ? origin : *offset, Frame::World(), Frame::World());
+}
+
+Vector6d BodyNodeHandle::spatial_acceleration(const Eigen::Vector3d* offset) const
+{
+  using dart::dynamics::Frame;
+  return body_->getSpatialAcceleration(offset == nullptr ? origin : *offset, Frame::World(), Frame::World());
+}
+
 Eigen::Vector3d BodyNodeHandle::linear_momentum() const
 {
   return body_->getLinearMomentum();
@@ -319,8 +361,13 @@ void BodyNodeHandle::angular_jacobian(bool full, Output& out) const
 void BodyNodeHandle::linear_jacobian_deriv(const Eigen::Vector3d* offset, bool full, Output& out) const
 {
   const BodyNode& body = *body_;
-  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   write(body, body.getLinearJacobianDeriv(offset == nullptr ? origin : *offset), full, out);
+}
+
+void BodyNodeHandle::world_jacobian_classic_deriv(const Eigen::Vector3d* offset, bool full, Output& out) const
+{
+  const BodyNode& body = *body_;
+  write(body, body.getJacobianClassicDeriv(offset == nullptr ? origin : *offset), full, out);
 }
 
 void BodyNodeHandle::angular_jacobian_deriv(bool full, Output& out) const

@@ -7,6 +7,7 @@
 #include "arrays.hpp"
 #include "part.hpp"
 #include "shape.hpp"
+#include "soft_body.hpp"
 
 namespace pydart2 {
 
@@ -36,6 +37,7 @@ public:
   int num_shapenodes() const;
   ShapeNodeHandle shapenode(long index) const;
   bool is_soft() const;
+  SoftBodyHandle soft_body() const;
 
   bool gravity_mode() const;
   void set_gravity_mode(bool enable);
@@ -68,6 +70,14 @@ public:
   Eigen::Vector3d com_linear_acceleration() const;
   Vector6d com_spatial_velocity() const;
   Vector6d com_spatial_acceleration() const;
+
+  /// Of a point of the body, or of the body; world frame. Spatial: angular, then linear.
+  Eigen::Vector3d linear_velocity(const Eigen::Vector3d* offset) const;
+  Eigen::Vector3d linear_acceleration(const Eigen::Vector3d* offset) const;
+  Eigen::Vector3d angular_velocity() const;
+  Eigen::Vector3d angular_acceleration() const;
+  Vector6d spatial_velocity(const Eigen::Vector3d* offset) const;
+  Vector6d spatial_acceleration(const Eigen::Vector3d* offset) const;
   Eigen::Vector3d linear_momentum() const;
   Eigen::Vector3d angular_momentum() const;
 
@@ -80,6 +90,7 @@ public:
   void world_jacobian(const Eigen::Vector3d* offset, bool full, Output& out) const;
   void linear_jacobian(const Eigen::Vector3d* offset, bool full, Output& out) const;
   void angular_jacobian(bool full, Output& out) const;
+  void world_jacobian_classic_deriv(const Eigen::Vector3d* offset, bool full, Output& out) const;
   void linear_jacobian_deriv(const Eigen::Vector3d* offset, bool full, Output& out) const;
   void angular_jacobian_deriv(bool full, Output& out) const;
 

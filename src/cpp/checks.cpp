@@ -37,6 +37,14 @@ void size(long got, std::size_t expected, const char* what)
     refuse(Kind::value, what, "needs " + std::to_string(expected) + " numbers, got " + std::to_string(got));
 }
 
+void shape(const MatrixIn& got, std::size_t rows, std::size_t cols, const char* what)
+{
+  if (static_cast<std::size_t>(got.rows) == rows && static_cast<std::size_t>(got.cols) == cols)
+    return;
+  const auto text = [](auto r, auto c) { return "(" + std::to_string(r) + ", " + std::to_string(c) + ")"; };
+  refuse(Kind::value, what, "needs shape " + text(rows, cols) + ", got " + text(got.rows, got.cols));
+}
+
 void finite(double value, const char* what)
 {
   if (!std::isfinite(value))

@@ -15,6 +15,9 @@ std::size_t index(long index, std::size_t count, const char* what);
 /// The length of a vector; ValueError otherwise.
 void size(long got, std::size_t expected, const char* what);
 
+/// The shape of a matrix; ValueError otherwise.
+void shape(const MatrixIn& got, std::size_t rows, std::size_t cols, const char* what);
+
 /// No NaN and no infinity; ValueError otherwise.
 void finite(double value, const char* what);
 void finite(const VectorIn& values, const char* what);

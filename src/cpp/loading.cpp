@@ -57,6 +57,11 @@ dart::simulation::WorldPtr load_world(const std::string& path)
   return parse(path, [&] { return dart::utils::SkelParser::readWorld(uri); });
 }
 
+dart::simulation::WorldPtr load_world_text(const std::string& xml)
+{
+  return parse("XML text", [&] { return dart::utils::SkelParser::readWorldXML(xml); });
+}
+
 dart::dynamics::SkeletonPtr load_skeleton(const std::string& path)
 {
   const std::string extension = extension_of(path);

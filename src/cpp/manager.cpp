@@ -12,6 +12,7 @@ void end(WorldRecord& world)
   world.state.store(WorldRecord::State::destroyed);
   world.recording.set_enabled(false);
   world.constraints.clear();
+  world.ignored_pairs.clear();
   world.skeletons.clear();
   world.world.reset();
 }

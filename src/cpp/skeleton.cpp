@@ -334,6 +334,11 @@ Eigen::Vector3d SkeletonHandle::com_acceleration() const
   return skeleton().getCOMLinearAcceleration();
 }
 
+Vector6d SkeletonHandle::com_spatial_velocity() const
+{
+  return skeleton().getCOMSpatialVelocity();
+}
+
 double SkeletonHandle::kinetic_energy() const
 {
   return skeleton().computeKineticEnergy();
@@ -352,6 +357,11 @@ void SkeletonHandle::clear_external_forces()
 void SkeletonHandle::clear_impulse()
 {
   skeleton().clearConstraintImpulses();
+}
+
+void SkeletonHandle::update_fk()
+{
+  skeleton().computeForwardKinematics();
 }
 
 void SkeletonHandle::check_tree_can_change(const char* what) const

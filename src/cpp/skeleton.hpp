@@ -77,11 +77,13 @@ public:
   Eigen::Vector3d com() const;
   Eigen::Vector3d com_velocity() const;
   Eigen::Vector3d com_acceleration() const;
+  Vector6d com_spatial_velocity() const;
   double kinetic_energy() const;
   double potential_energy() const;
 
   void clear_external_forces();
   void clear_impulse();
+  void update_fk();
 
   /// A new massless root under TranslationalJoint root_t, the old root below it under EulerJoint root_r (XYZ).
   /// Positions are not converted. Every handle into this skeleton must be taken again.

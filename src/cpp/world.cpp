@@ -1,6 +1,7 @@
 #include "world.hpp"
 
 #include <algorithm>
+#include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/bullet/BulletCollisionDetector.hpp>
 #include <dart/collision/dart/DARTCollisionDetector.hpp>
 #include <dart/collision/fcl/FCLCollisionDetector.hpp>
@@ -84,6 +85,15 @@ void reset_skeleton(dart::dynamics::Skeleton& skeleton)
     }
 }
 
+/// The engine's filter holds bare pointers, so it is filled anew from the record whenever that changes.
+void apply_ignored_pairs(WorldRecord& world)
+{
+  auto filter = std::make_shared<dart::collision::BodyNodeCollisionFilter>();
+  for (const auto& [body1, body2] : world.ignored_pairs)
+    filter->addBodyNodePairToBlackList(body1, body2);
+  world.world->getConstraintSolver()->getCollisionOption().collisionFilter = filter;
+}
+
 const Frame& kept_frame(const WorldRecord& world, long index)
 {
   const Frame* frame = world.recording.find(index);
@@ -114,6 +124,11 @@ WorldHandle::WorldHandle(double time_step) : WorldHandle(make_world(time_step)) 
 WorldHandle WorldHandle::load(const std::string& skel_path)
 {
   return WorldHandle(load_world(skel_path));
+}
+
+WorldHandle WorldHandle::load_text(const std::string& skel_xml)
+{
+  return WorldHandle(load_world_text(skel_xml));
 }
 
 WorldRecord& WorldHandle::world() const
@@ -159,6 +174,14 @@ void WorldHandle::remove_skeleton(long index)
     if (uses)
       solver.removeConstraint(it->constraint);
     it = uses ? record.constraints.erase(it) : std::next(it);
+  }
+  auto& pairs = record.ignored_pairs;
+  const auto has_skeleton = [&](const auto& pair) {
+    return pair.first->getSkeleton() == skeleton || pair.second->getSkeleton() == skeleton;
+  };
+  if (std::any_of(pairs.begin(), pairs.end(), has_skeleton)) {
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), has_skeleton), pairs.end());
+    apply_ignored_pairs(record);
   }
   solver.clearLastCollisionResult(); // it points to collision objects that go
   record.world->removeSkeleton(skeleton);
@@ -269,6 +292,29 @@ void WorldHandle::set_collision_detector(const std::string& name)
     throw Error(Kind::value, "no collision detector '" + name + "'; there are dart, fcl, bullet and ode");
   solver.clearLastCollisionResult(); // it points to objects of the old detector
   solver.setCollisionDetector(detector);
+}
+
+void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)
+{
+  auto& record = world();
+  for (const auto* body : {&body1.body(), &body2.body()})
+    if (record.index_of(body->getSkeleton()) < 0)
+      throw Error(Kind::value, "body '" + body->getName() + "' is not in this world");
+  auto& pairs = record.ignored_pairs;
+  auto pair = std::pair(&body1.body(), &body2.body());
+  if (pair.second < pair.first)
+    std::swap(pair.first, pair.second); // one entry for both orders
+  pairs.erase(std::remove(pairs.begin(), pairs.end(), pair), pairs.end());
+  if (ignore)
+    pairs.push_back(pair);
+  apply_ignored_pairs(record);
+}
+
+void WorldHandle::ignore_no_pair()
+{
+  auto& record = world();
+  record.ignored_pairs.clear();
+  apply_ignored_pairs(record);
 }
 
 int WorldHandle::num_contacts() const

@@ -22,6 +22,7 @@ public:
 
   /// The world of a SKEL file.
   static WorldHandle load(const std::string& skel_path);
+  static WorldHandle load_text(const std::string& skel_xml);
 
   int id() const { return record_->id; }
   void destroy();
@@ -54,6 +55,10 @@ public:
   /// "dart", "fcl", "bullet" or "ode".
   std::string collision_detector() const;
   void set_collision_detector(const std::string& name);
+
+  /// Two bodies that do not collide with each other, or do again.
+  void ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore);
+  void ignore_no_pair();
 
   int num_contacts() const;
 

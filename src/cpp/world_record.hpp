@@ -4,6 +4,7 @@
 #include <dart/dynamics/Skeleton.hpp>
 #include <dart/simulation/World.hpp>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "recording.hpp"
@@ -49,6 +50,7 @@ struct WorldRecord
   dart::simulation::WorldPtr world;
   std::vector<SkeletonRef> skeletons;
   std::vector<ConstraintRecord> constraints;
+  std::vector<std::pair<dart::dynamics::BodyNode*, dart::dynamics::BodyNode*>> ignored_pairs;
   std::atomic<State> state{State::ready};
   long frame = 0; ///< Steps since the last reset.
   Recording recording;
