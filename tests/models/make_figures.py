@@ -1,8 +1,9 @@
 """Writes figures/*.json, the figures of the published models that ours are compared with.
 
-    /usr/bin/python3 tests/models/make_figures.py [data folder of Debian's dart-doc]
+    /usr/bin/python3 tests/models/make_figures.py ORIGINAL [DART]
 
-Needs Debian's python3-dartpy and dart-doc.  A file holds numbers and names only.
+ORIGINAL is the data folder of the original pydart2's examples, DART that of Debian's dart-doc.  Needs
+Debian's python3-dartpy.  A file holds numbers and names only.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import json
 import math
 import sys
+import tempfile
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
@@ -19,7 +21,14 @@ import numpy as np
 
 FIGURES = Path(__file__).parent / "figures"
 POSES = 10
-GRAVITY = [0.0, 0.0, -9.81]  # of the bias forces of Atlas
+GRAVITY = [0.0, 0.0, -9.81]  # of the bias forces of Atlas and PR2
+AXES = {  # per joint type, what says where its axes are
+    "RevoluteJoint": ("getAxis",),
+    "PrismaticJoint": ("getAxis",),
+    "UniversalJoint": ("getAxis1", "getAxis2"),
+}
+SIZES = ("getSize", "getDiameters", "getRadius", "getHeight", "getScale")
+KEYS = ("name", "q", "bodies", "joints", "dofs", "poses", "M", "c", "skeletons", "shapes", "stated_limits")
 
 
 def numbers(values: Any) -> Any:
@@ -46,11 +55,12 @@ def joint_figures(joint: Any) -> dict[str, Any]:
     figures = {
         "name": joint.getName(),
         "type": joint.getType(),
+        "actuator": str(joint.getActuatorType()).split(".")[-1],
         "from_parent": numbers(joint.getTransformFromParentBodyNode().matrix()),
         "from_child": numbers(joint.getTransformFromChildBodyNode().matrix()),
     }
-    if figures["type"] == "RevoluteJoint":
-        figures["axis"] = numbers(joint.getAxis())
+    if figures["type"] in AXES:
+        figures["axes"] = [numbers(getattr(joint, read)()) for read in AXES[figures["type"]]]
     return figures
 
 
@@ -106,10 +116,11 @@ def stated_limits(model: Path) -> dict[str, dict[str, float]]:
 def shape_figures(body: Any) -> list[dict[str, Any]]:
     figures = []
     for node in body.getShapeNodes():
+        shape = node.getShape()
         entry = {
-            "type": node.getShape().getType(),
-            "size": numbers(node.getShape().getSize()),
-            "place": numbers(node.getRelativeTranslation()),
+            "type": shape.getType(),
+            "size": [numbers(getattr(shape, read)()) for read in SIZES if hasattr(shape, read)],
+            "place": numbers(node.getRelativeTransform().matrix()),
             "collides": bool(node.hasCollisionAspect()),
         }
         if node.hasVisualAspect():
@@ -118,48 +129,85 @@ def shape_figures(body: Any) -> list[dict[str, Any]]:
     return figures
 
 
+def stated_shapes(model: Path) -> list[dict[str, list[list[float]]]]:
+    """What the file states of soft skins and of multiple spheres, which dartpy does not give."""
+    shapes = [e for tag in ("soft_shape", "multi_sphere") for e in ET.parse(model).iter(tag)]
+    out: list[dict[str, list[list[float]]]] = []
+    for shape in shapes:
+        figures: dict[str, list[list[float]]] = {}
+        for leaf in (e for e in shape.iter() if len(e) == 0):
+            figures.setdefault(leaf.tag, []).append([float(v) for v in (leaf.text or "").split()])
+        out.append(figures)
+    return out
+
+
+def world_figures(model: Path, poses: int) -> dict[str, Any]:
+    """All of a SKEL world."""
+    world = dart.utils.SkelParser.readWorld(dart.common.Uri(str(model)))
+    entries = []
+    for k in range(world.getNumSkeletons()):
+        skeleton = world.getSkeleton(k)
+        bodies = [skeleton.getBodyNode(i) for i in range(skeleton.getNumBodyNodes())]
+        shapes = {"shapes": [shape_figures(b) for b in bodies], "mobile": skeleton.isMobile()}
+        entries.append({**skeleton_figures(skeleton, poses), **shapes})
+    return {
+        "time_step": numbers(world.getTimeStep()),
+        "gravity": numbers(world.getGravity()),
+        "detector": world.getConstraintSolver().getCollisionDetector().getType(),
+        "stated_detector": ET.parse(model).findtext("world/physics/collision_detector"),
+        "stated_shapes": stated_shapes(model),
+        "skeletons": entries,
+    }
+
+
+def without_meshes(model: Path, folder: Path) -> Path:
+    """A copy of a URDF model without visual and collision elements, whose meshes may be missing."""
+    tree = ET.parse(model)
+    for link in tree.iter("link"):
+        for element in [e for e in link if e.tag in ("visual", "collision")]:
+            link.remove(element)
+    tree.write(folder / model.name)
+    return folder / model.name
+
+
+def beside(model: Path, mesh: Path, folder: Path) -> Path:
+    """A copy of a SKEL model with the mesh that it looks for in ../obj."""
+    for source, place in ((model, "skel"), (mesh, "obj")):
+        (folder / place).mkdir()
+        (folder / place / source.name).write_bytes(source.read_bytes())
+    return folder / "skel" / model.name
+
+
 def write(name: str, figures: dict[str, Any]) -> None:
     FIGURES.mkdir(exist_ok=True)
     lines = json.dumps(figures, allow_nan=False)
-    for key in (
-        '{"name"',
-        '{"q"',
-        '"bodies"',
-        '"joints"',
-        '"dofs"',
-        '"poses"',
-        '"M"',
-        '"c"',
-        '"skeletons"',
-        '"shapes"',
-        '"stated_limits"',
-    ):
-        lines = lines.replace(f" {key}", f"\n{key}").replace(f"[{key}", f"[\n{key}")
+    for key in KEYS:
+        head = f'{{"{key}"' if key in ("name", "q") else f'"{key}"'
+        lines = lines.replace(f" {head}", f"\n{head}").replace(f"[{head}", f"[\n{head}")
     (FIGURES / f"{name}.json").write_text(lines + "\n", encoding="ascii")
 
 
-def main(data: Path) -> None:
-    model = data / "sdf/atlas/atlas_v3_no_head.sdf"
+def write_robots(original: Path, dart_data: Path, folder: Path) -> None:
+    model = dart_data / "sdf/atlas/atlas_v3_no_head.sdf"
     atlas = dart.utils.SdfParser.readSkeleton(dart.common.Uri(str(model)))
     atlas.setGravity(GRAVITY)
-    write(
-        "atlas_v3_no_head",
-        {"gravity": GRAVITY, **skeleton_figures(atlas, POSES), "stated_limits": stated_limits(model)},
-    )
-    world = dart.utils.SkelParser.readWorld(dart.common.Uri(str(data / "skel/cubes.skel")))
-    skeletons = [world.getSkeleton(i) for i in range(world.getNumSkeletons())]
-    entries = [{**skeleton_figures(s, 1), "shapes": shape_figures(s.getBodyNode(0))} for s in skeletons]
-    detector = world.getConstraintSolver().getCollisionDetector().getType()
-    write(
-        "cubes",
-        {
-            "time_step": numbers(world.getTimeStep()),
-            "gravity": numbers(world.getGravity()),
-            "detector": detector,
-            "skeletons": entries,
-        },
-    )
+    limits = {"stated_limits": stated_limits(model)}
+    write("atlas_v3_no_head", {"gravity": GRAVITY, **skeleton_figures(atlas, POSES), **limits})
+    pr2 = dart.utils.DartLoader().parseSkeleton(str(without_meshes(original / "urdf/PR2/pr2.urdf", folder)))
+    pr2.setGravity(GRAVITY)
+    write("pr2", {"gravity": GRAVITY, **skeleton_figures(pr2, POSES)})
+
+
+def main(original: Path, dart_data: Path) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        write_robots(original, dart_data, Path(folder))
+        shapes = beside(original / "skel/shapes.skel", dart_data / "obj/foot.obj", Path(folder))
+        write("shapes", world_figures(shapes, POSES))
+    for name in ("cubes", "chain", "fullbody1", "softBodies", "ground"):
+        write(name, world_figures(dart_data / f"skel/{name}.skel", POSES))
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path("/usr/share/doc/dart/data"))
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    main(Path(sys.argv[1]), Path(sys.argv[2] if len(sys.argv) > 2 else "/usr/share/doc/dart/data"))
