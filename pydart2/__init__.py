@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pydart2 import constraints
+from pydart2 import constraints, pydart2_api
 from pydart2.bodynode import BodyNode
 from pydart2.collision_result import CollisionResult
 from pydart2.contact import Contact
@@ -42,7 +42,11 @@ from pydart2.softbody import SoftBodyNode
 from pydart2.world import World, create_world
 
 if TYPE_CHECKING:
+    from pydart2 import utils
+
     __version__: str
+
+papi = pydart2_api
 
 __all__ = [
     "BallJoint",
@@ -79,14 +83,22 @@ __all__ = [
     "data_files",
     "data_path",
     "init",
+    "papi",
+    "pydart2_api",
     "set_verbose",
+    "utils",
     "verbose",
 ]
 
 
 def __getattr__(name: str) -> object:
-    if name == "__version__":  # read from the package's metadata, which takes a while to open
+    """What takes a while to import and is seldom wanted."""
+    if name == "__version__":
         from importlib.metadata import version
 
         return version("pydart2")
+    if name == "utils":
+        from importlib import import_module
+
+        return import_module("pydart2.utils")
     raise AttributeError(f"module 'pydart2' has no attribute {name!r}")
