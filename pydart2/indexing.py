@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _CACHE_SIZE = 256
 
 
-class Names(dict[str, int]):
+class Names(dict[Any, int]):
     """Name → index of one axis, with the indices that names, slices, lists and masks stand for.
 
     Parameters
@@ -31,7 +31,9 @@ class Names(dict[str, int]):
 
     def __init__(self, labels: Iterable[str], skel: Skeleton | weakref.ref[Skeleton] | None = None) -> None:
         self.labels = list(labels)
-        super().__init__((label, i) for i, label in enumerate(self.labels))
+        super().__init__()
+        for i, label in enumerate(self.labels):
+            self[(label, i) if label in self else label] = i  # a repeated label: as many keys as entries all the same
         self._skel = skel if skel is None or isinstance(skel, weakref.ref) else weakref.ref(skel)
         self._cache: dict[Any, tuple[Any, Names | None]] = {}
 
@@ -91,5 +93,5 @@ def _cache_key(key: Any) -> Any:
     if isinstance(key, slice):
         return slice, key.start, key.stop, key.step
     if isinstance(key, (tuple, list)) and all(type(k) is str or type(k) is int for k in key):
-        return tuple(key)
+        return type(key), *key
     return None

@@ -22,7 +22,8 @@ class SkelVector(NamedVector):
     >>> skel.q = q                      # now the robot has moved
 
     Integers, slices, masks and everything else of NumPy work as on any array; a tuple or list of names or integers
-    picks these entries. What is picked, and results of the same length, keep their names.
+    picks these entries. What is picked, and results of the same length, keep their names; what NumPy puts into another
+    order (sort, partition, take, roll) has none.
 
     Parameters
     ----------
@@ -72,6 +73,34 @@ class SkelVector(NamedVector):
     def __contains__(self, key: object) -> bool:
         """Whether there is an entry of this name."""
         return self._names is not None and isinstance(key, str) and key in self._names
+
+    def sort(self, *args: Any, **kwargs: Any) -> None:
+        """As of any array; the names are dropped."""
+        super().sort(*args, **kwargs)
+        self._names = None
+
+    def partition(self, *args: Any, **kwargs: Any) -> None:
+        """As of any array; the names are dropped."""
+        super().partition(*args, **kwargs)
+        self._names = None
+
+    def take(self, *args: Any, **kwargs: Any) -> Any:
+        """As of any array, and without names."""
+        return np.asarray(self).take(*args, **kwargs)
+
+    def __array_function__(self, func: Any, types: Any, args: Any, kwargs: Any) -> Any:
+        result = super().__array_function__(func, types, args, kwargs)
+        if func is np.roll and isinstance(result, SkelVector):
+            result._names = None
+        return result
+
+    def __repr__(self) -> str:
+        """A table of names and numbers."""
+        if self._names is None:
+            return super().__repr__()
+        width = max(map(len, self.keys), default=0)
+        rows = (f"  {name:<{width}}  {value: .6g}\n" for name, value in zip(self.keys, self.tolist(), strict=True))
+        return f"{type(self).__name__}(\n{''.join(rows)})"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (type(self), np.array(self), self.keys or None)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydart2 import spd
 from pydart2.bodynode import BodyNode
 from pydart2.dof import Dof
-from pydart2.errors import NameNotFound
+from pydart2.errors import DestroyedError, NameNotFound
 from pydart2.indexing import Names
 from pydart2.joint import Joint, create_joint
 from pydart2.marker import Marker
@@ -519,4 +519,7 @@ class Skeleton:
         return vector
 
     def __repr__(self) -> str:
-        return f"[Skeleton({self.id}): {self.name}]"
+        try:
+            return f"[Skeleton({self.id}): {self.name}]"
+        except DestroyedError:
+            return f"[Skeleton({self.id}): destroyed]"

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydart2._native import WorldHandle
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
+from pydart2.errors import DestroyedError
 from pydart2.recording import Recording
 from pydart2.resources import find_model
 from pydart2.skeleton import Skeleton
@@ -303,4 +304,7 @@ class World:
         return True
 
     def __repr__(self) -> str:
-        return f"[World ID:{self.id} time:{self.t:.4f} # frames: {self.num_frames()}]"
+        try:
+            return f"[World ID:{self.id} time:{self.t:.4f} # frames: {self.num_frames()}]"
+        except DestroyedError:
+            return f"[World ID:{self.id} destroyed]"

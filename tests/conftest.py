@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from oracle.fixtures import cpp_oracle, oracle  # noqa: F401 (fixtures)
-from oracle.models import dart_model
 
 import pydart2
+from oracle.fixtures import cpp_oracle, oracle  # noqa: F401 (fixtures)
+from oracle.models import dart_model
 
 
 @pytest.fixture

@@ -228,7 +228,7 @@ Eigen::Vector3d JointHandle::axis1() const
 void JointHandle::set_axis1(const Eigen::Vector3d& axis)
 {
   check::direction(axis, "joint axis 1");
-  as<UniversalJoint>(*joint_, "axis1").setAxis1(axis);
+  as<UniversalJoint>(*joint_, "axis1").setAxis1(axis.normalized()); // the engine takes any length
 }
 
 Eigen::Vector3d JointHandle::axis2() const
@@ -239,7 +239,7 @@ Eigen::Vector3d JointHandle::axis2() const
 void JointHandle::set_axis2(const Eigen::Vector3d& axis)
 {
   check::direction(axis, "joint axis 2");
-  as<UniversalJoint>(*joint_, "axis2").setAxis2(axis);
+  as<UniversalJoint>(*joint_, "axis2").setAxis2(axis.normalized());
 }
 
 std::string JointHandle::axis_order() const

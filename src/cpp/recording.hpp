@@ -11,6 +11,7 @@ struct Frame
 {
   std::vector<double> state;
   std::vector<double> contacts;
+  int layout = 0; ///< WorldRecord::layout() when it was made.
 
   std::size_t bytes() const { return sizeof(Frame) + sizeof(double) * (state.capacity() + contacts.capacity()); }
 };

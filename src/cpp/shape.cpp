@@ -47,6 +47,16 @@ using WithRadius = OneOf<SphereShape, CylinderShape, CapsuleShape, ConeShape>;
 using WithHeight = OneOf<CylinderShape, CapsuleShape, ConeShape, PyramidShape>;
 using Spheres = OneOf<MultiSphereConvexHullShape>;
 
+/// As the engine says, but for cones: there it adds the radius to half of the height.
+dart::math::BoundingBox bounding_box(const Shape& shape)
+{
+  const auto* cone = dynamic_cast<const ConeShape*>(&shape);
+  if (cone == nullptr)
+    return shape.getBoundingBox();
+  const Eigen::Vector3d half(cone->getRadius(), cone->getRadius(), cone->getHeight() / 2);
+  return {-half, half};
+}
+
 } // namespace
 
 ShapeHandle::ShapeHandle(const Node& node) : node_(node) {}
@@ -71,12 +81,12 @@ double ShapeHandle::volume() const
 
 Eigen::Vector3d ShapeHandle::bounding_box_min() const
 {
-  return shape().getBoundingBox().getMin();
+  return bounding_box(shape()).getMin();
 }
 
 Eigen::Vector3d ShapeHandle::bounding_box_max() const
 {
-  return shape().getBoundingBox().getMax();
+  return bounding_box(shape()).getMax();
 }
 
 double ShapeHandle::radius() const

@@ -319,24 +319,32 @@ void SkeletonHandle::constraint_forces(Output& out) const
   copy(skeleton().getConstraintForces(), out);
 }
 
+dart::dynamics::Skeleton& SkeletonHandle::with_mass() const
+{
+  auto& skeleton = this->skeleton();
+  if (skeleton.getMass() == 0) // the engine asserts
+    throw Error(Kind::value, "skeleton '" + skeleton.getName() + "' has no mass, so it has no centre of mass");
+  return skeleton;
+}
+
 Eigen::Vector3d SkeletonHandle::com() const
 {
-  return skeleton().getCOM();
+  return with_mass().getCOM();
 }
 
 Eigen::Vector3d SkeletonHandle::com_velocity() const
 {
-  return skeleton().getCOMLinearVelocity();
+  return with_mass().getCOMLinearVelocity();
 }
 
 Eigen::Vector3d SkeletonHandle::com_acceleration() const
 {
-  return skeleton().getCOMLinearAcceleration();
+  return with_mass().getCOMLinearAcceleration();
 }
 
 Vector6d SkeletonHandle::com_spatial_velocity() const
 {
-  return skeleton().getCOMSpatialVelocity();
+  return with_mass().getCOMSpatialVelocity();
 }
 
 double SkeletonHandle::kinetic_energy() const

@@ -94,6 +94,7 @@ public:
 
 private:
   dart::dynamics::Skeleton& skeleton() const { return *skeleton_; }
+  dart::dynamics::Skeleton& with_mass() const;
   void check_tree_can_change(const char* what) const;
   void tree_changed();
 

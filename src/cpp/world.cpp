@@ -64,6 +64,7 @@ void record(WorldRecord& world)
   frame.state.resize(static_cast<std::size_t>(num_states(world)));
   write_states(world, frame.state.data());
   frame.contacts = pack_contacts(world);
+  frame.layout = world.layout();
   world.recording.add(std::move(frame));
 }
 
@@ -185,7 +186,7 @@ void WorldHandle::remove_skeleton(long index)
   }
   solver.clearLastCollisionResult(); // it points to collision objects that go
   record.world->removeSkeleton(skeleton);
-  ++record.skeletons[i]->structure; // parts of a skeleton without a world are refused
+  record.removals += ++record.skeletons[i]->structure; // parts of a skeleton without a world are refused
   record.skeletons.erase(record.skeletons.begin() + static_cast<long>(i));
 }
 
@@ -384,7 +385,7 @@ bool WorldHandle::set_frame(long index)
 {
   auto& record = world();
   const Frame* frame = record.recording.find(index);
-  if (frame == nullptr || static_cast<long>(frame->state.size()) > num_states(record))
+  if (frame == nullptr || frame->layout != record.layout())
     return false;
   // A skeleton that was added after this frame keeps its state.
   std::vector<double> states(static_cast<std::size_t>(num_states(record)));

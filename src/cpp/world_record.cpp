@@ -1,5 +1,7 @@
 #include "world_record.hpp"
 
+#include <numeric>
+
 #include "errors.hpp"
 
 namespace pydart2 {
@@ -8,6 +10,13 @@ WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world) : id(id), wor
 {
   for (std::size_t i = 0; i < this->world->getNumSkeletons(); ++i)
     skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i)}));
+}
+
+int WorldRecord::layout() const
+{
+  return std::accumulate(skeletons.begin(), skeletons.end(), removals, [](int sum, const SkeletonRef& skeleton) {
+    return sum + skeleton->structure;
+  });
 }
 
 int WorldRecord::index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const

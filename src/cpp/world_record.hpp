@@ -43,6 +43,9 @@ struct WorldRecord
       refuse();
   }
 
+  /// Changes when skeletons are removed or get another tree, so that the states of an earlier frame no longer fit.
+  int layout() const;
+
   /// Index of a skeleton in this world, -1 if it is not in it.
   int index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const;
 
@@ -53,6 +56,7 @@ struct WorldRecord
   std::vector<std::pair<dart::dynamics::BodyNode*, dart::dynamics::BodyNode*>> ignored_pairs;
   std::atomic<State> state{State::ready};
   long frame = 0; ///< Steps since the last reset.
+  int removals = 0; ///< Skeletons that were removed, and the changes of their trees.
   Recording recording;
 
 private:

@@ -1,0 +1,157 @@
+"""Contacts and collision results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pydart2
+from physics.models import box, floor, free_body, make_world, sphere
+
+DEPTH = 0.01
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> pydart2.World:
+    """A ball of radius 0.5 that is DEPTH deep in the floor at x = 1, and one far above."""
+    low = free_body("low", at=(1.0, 0.5 - DEPTH, 0, 0, 0, 0), shape=sphere(0.5))
+    high = free_body("high", at=(0, 5, 0, 0, 0, 0), shape=sphere(0.5))
+    return make_world(tmp_path, floor(), low, high)
+
+
+@pytest.mark.parametrize("detector", [0, 1, 2, 3])
+def test_one_contact(world: pydart2.World, detector: int) -> None:
+    world.set_collision_detector(detector)
+    world.check_collision()
+    result = world.collision_result
+    assert result.num_contacts() >= 1
+    ids = []
+    for contact in result.contacts:
+        np.testing.assert_allclose(contact.point, [1.0, 0, 0], atol=0.1)  # FCL sees a ball of triangles
+        assert contact.depth == pytest.approx(DEPTH, rel=0.3)
+        up = 1 if contact.skel_id1 == 1 else -1  # the normal points from the second body to the first
+        np.testing.assert_allclose(contact.normal, [0, up, 0], atol=1e-5)
+        assert contact.force[1] * up > 0
+        ids.append({(contact.skel_id1, contact.bodynode_id1), (contact.skel_id2, contact.bodynode_id2)})
+        bodies = {contact.bodynode1, contact.bodynode2}
+        assert bodies == {world.skeletons[0].bodynodes[0], world.skeletons[1].bodynodes[0]}
+    assert ids == [{(0, 0), (1, 0)}] * len(ids)
+    assert {b.skel.name for b in result.contacted_bodies} == {"floor", "low"}
+    assert result.num_contacted_bodies() == 2
+    assert len(result.contact_sets) == 1
+
+
+def test_check_collision_changes_nothing_else(world: pydart2.World, tmp_path: Path) -> None:
+    state, other = world.x, make_world(tmp_path / ".", floor())
+    world.check_collision()
+    np.testing.assert_array_equal(world.x, state)
+    assert (world.t, world.frame) == (0, 0)
+    assert np.all(world.skeletons[1].constraint_forces() == 0)
+    assert other.collision_result.num_contacts() == 0
+
+
+def test_step_after_check_collision_is_the_same_step(world: pydart2.World) -> None:
+    world.step()
+    expected = world.x
+    world.reset()
+    world.check_collision()
+    world.step()
+    np.testing.assert_array_equal(world.x, expected)
+
+
+def test_packed_forms(world: pydart2.World) -> None:
+    world.check_collision()
+    contact = world.collision_result.contacts[0]
+    assert contact.state.shape == (10,)
+    np.testing.assert_array_equal(contact.state[:3], contact.p)
+    np.testing.assert_array_equal(contact.state[3:6], contact.f)
+    assert contact.state[6:].tolist() == [
+        contact.skel_id1,
+        contact.bodynode_id1,
+        contact.skel_id2,
+        contact.bodynode_id2,
+    ]
+    rows = world.collision_result.rows
+    assert rows.shape == (world.collision_result.num_contacts(), 16)
+    np.testing.assert_array_equal(rows[0, :10], contact.state)
+    for body, shape_id in ((contact.bodynode1, contact.shape_id1), (contact.bodynode2, contact.shape_id2)):
+        assert body is not None and body.shapenodes[shape_id].has_collision_aspect()
+    rows[:] = 0
+    contact.force[:] = 0
+    assert world.collision_result.contacts[0].force.any()
+
+
+def test_a_copy_stays_while_the_result_goes_on(world: pydart2.World) -> None:
+    world.check_collision()
+    result = world.collision_result
+    kept, point = result.copy(), result.contacts[0].p
+    world.skeletons[1].q = [0, 0, 0, 0, 10, 0]
+    world.check_collision()
+    assert world.collision_result is result and result.num_contacts() == 0
+    assert result.contacted_bodies == []
+    assert kept.num_contacts() >= 1
+    np.testing.assert_array_equal(kept.contacts[0].p, point)
+
+
+def test_contacts_kept_by_the_caller_do_not_change(world: pydart2.World) -> None:
+    world.step()
+    contacts = world.collision_result.contacts
+    force = contacts[0].f
+    world.step(20)
+    np.testing.assert_array_equal(contacts[0].f, force)
+
+
+def test_update_after_reset(world: pydart2.World) -> None:
+    world.step()
+    before = world.collision_result
+    world.reset()
+    assert world.collision_result is not before
+    assert world.collision_result.num_contacts() == 0
+
+
+def test_no_body_without_a_skeleton(world: pydart2.World) -> None:
+    contact = pydart2.Contact(world, np.array([0.0] * 6 + [-1, -1, 99, 0]))
+    assert contact.bodynode1 is None and contact.bodynode2 is None
+
+
+def test_contacts_after_a_skeleton_was_removed(world: pydart2.World) -> None:
+    """The engine keeps pointers to what touched; they must not be followed."""
+    world.step()
+    world.remove_skeleton(world.skeletons[0])
+    for _ in range(3):
+        world.collision_result.update()
+        assert world.collision_result.contacts == []
+        world.step()
+
+
+def test_order_of_bodies_is_that_of_the_contacts(cubes: pydart2.World) -> None:
+    cubes.step(100)
+    result = cubes.collision_result
+    expected = []
+    for contact in result.contacts:
+        for body in (contact.bodynode1, contact.bodynode2):
+            if body not in expected:
+                expected.append(body)
+    assert result.contacted_bodies == expected
+
+
+def test_two_boxes_touch_over_a_face(tmp_path: Path) -> None:
+    boxes = [free_body(f"b{i}", at=(0, 0.99 * i, 0, 0, 0, 0), shape=box((1, 1, 1))) for i in (0, 1)]
+    world = make_world(tmp_path, *boxes, gravity=(0, 0, 0))
+    world.check_collision()
+    points = np.array([c.p for c in world.collision_result.contacts])
+    assert len(points) >= 4
+    np.testing.assert_allclose(points.max(axis=0)[[0, 2]], 0.5, atol=1e-6)
+    np.testing.assert_allclose(points.min(axis=0)[[0, 2]], -0.5, atol=1e-6)
+    np.testing.assert_allclose(points[:, 1], 0.495, atol=6e-3)
+
+
+def test_repr(world: pydart2.World) -> None:
+    assert repr(world.collision_result) == "[CollisionResult: 0 contacts 0 contacted bodies]"
+    world.check_collision()
+    n = world.collision_result.num_contacts()
+    assert repr(world.collision_result) == f"[CollisionResult: {n} contacts 2 contacted bodies]"
+    contact = world.collision_result.contacts[0]
+    assert repr(contact) == f"[Contact {contact.point} {contact.force}]"
