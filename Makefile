@@ -1,12 +1,13 @@
 # make demo   set up, then the first examples
 # make test   set up, then the tests
+# make wheel  a wheel that carries DART, and the source archive, in dist/
 # make test-packaging, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
 export PYTHON VENV
 
-.PHONY: demo test test-packaging bench lint setup clean
+.PHONY: demo test test-packaging bench wheel lint setup clean
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
@@ -21,6 +22,9 @@ test-packaging: setup
 bench: setup
 	$(VENV)/bin/python benchmarks/step_overhead.py
 	$(VENV)/bin/python benchmarks/reading.py
+
+wheel: setup
+	$(VENV)/bin/python tools/make_wheel.py
 
 lint: setup
 	$(VENV)/bin/ruff check .

@@ -8,8 +8,9 @@ venv=${VENV:-.venv}
 
 say() { echo "setup: $*"; }
 
-# To build; to make a virtual environment with Debian's own Python; for the tests (DART's own models, the oracle).
-packages="g++ cmake make swig libdart-all-dev python3-venv python3-dev dart-doc python3-dartpy python3-numpy"
+# To build; to make a virtual environment with Debian's own Python; for the tests (DART's own models, the oracle, a bare
+# system).
+packages="g++ cmake make swig libdart-all-dev python3-venv python3-dev dart-doc python3-dartpy python3-numpy debootstrap"
 missing=
 for package in $packages; do
   dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing="$missing $package"
@@ -37,7 +38,7 @@ fi
 # The build's own requirements, then the package with all that its tests need; again when one of its sources changes.
 if [ -z "$(find "$venv/.requirements" -newer pyproject.toml 2>/dev/null)" ]; then
   say "installing the build requirements"
-  "$venv/bin/pip" install --quiet --upgrade 'setuptools>=70.1' 'numpy>=2.0'
+  "$venv/bin/pip" install --quiet --upgrade 'setuptools>=77' 'numpy>=2.0'
   touch "$venv/.requirements"
 fi
 newer=$(find setup.py pyproject.toml CMakeLists.txt src swig tools/make_stub.py "$venv/.requirements" \
