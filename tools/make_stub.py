@@ -1,13 +1,18 @@
-"""Writes the typed stub of the extension from the headers that SWIG wraps: python make_stub.py HEADERS... STUB.
+"""Writes the typed stub of the extension: python make_stub.py HEADERS... STUB.
 
-Every public method of a class that ends in Handle is declared on lines of its own there.
+Its classes are those of the headers that SWIG wraps: every public method of a class that ends in Handle is declared on
+lines of its own there. Its functions are those of pydart2/flat_table.py.
 """
 
 from __future__ import annotations
 
 import re
+import runpy
 import sys
 from pathlib import Path
+from typing import Any
+
+FLAT_TABLE = Path(__file__).parents[1] / "pydart2" / "flat_table.py"
 
 RETURNS = {
     "void": "None",
@@ -20,6 +25,8 @@ RETURNS = {
     "Vector6d": "NDArray[np.float64]",
 }
 ARGUMENTS = {"bool": "bool", "long": "int", "double": "float", "const std::string&": "str"}
+IDS = re.compile(r"(w|sk|b|dof|j|m|s)id\d?|i|index|ndofs|nout|\w+_type")
+FLAT = {"verbose=True": "verbose: bool = True", "tuple of int": "tuple[int, ...]"}
 
 HEAD = '''"""The C++ layer: one handle per engine object. Made by tools/make_stub.py."""
 
@@ -35,6 +42,8 @@ class NamedVector(np.ndarray[tuple[int], np.dtype[np.float64]]):
     _names: Names | None
     def __getitem__(self, key: Any) -> Any: ...
     def __setitem__(self, key: Any, value: Any) -> None: ...
+
+class IntVector(list[int]): ...
 
 def restart() -> None: ...
 '''
@@ -90,11 +99,20 @@ def classes(header: str) -> list[str]:
     return stubs
 
 
+def function(row: Any) -> str:
+    """The stub of a flat function, a row of the table; what is neither an id nor an index may be anything."""
+    names = [name for name in row.parameters.split(", ") if name]
+    parameters = [FLAT.get(name, f"{name}: {'int' if IDS.fullmatch(name) else 'Any'}") for name in names]
+    result = FLAT.get(row.result, "NDArray[np.float64]" if row.result.startswith("(") else row.result)
+    return f"def {row.name}({', '.join(parameters)}) -> {result}: ..."
+
+
 def main() -> None:
-    """Read the headers, write the stub."""
+    """Read the headers and the table, write the stub."""
     *headers, stub = map(Path, sys.argv[1:])
     parts = [part for header in sorted(headers) for part in classes(header.read_text())]
-    stub.write_text("\n".join([HEAD, *parts]))
+    functions = [function(row) for row in runpy.run_path(str(FLAT_TABLE))["ROWS"]]
+    stub.write_text("\n".join([HEAD, *parts, *functions]) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,9 @@
 #include "manager.hpp"
 
+#include <string>
+
+#include "errors.hpp"
+
 namespace pydart2 {
 
 namespace {
@@ -33,6 +37,15 @@ WorldRef Manager::add(dart::simulation::WorldPtr world)
   for (auto it = worlds_.begin(); it != worlds_.end();)
     it = it->second.expired() ? worlds_.erase(it) : std::next(it);
   return record;
+}
+
+WorldRef Manager::find(long id)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (const auto it = worlds_.find(id); it != worlds_.end())
+    if (auto record = it->second.lock())
+      return record;
+  throw Error(Kind::index, "no world " + std::to_string(id) + ": none was made with this id, or it is gone");
 }
 
 void Manager::destroy(WorldRecord& world)

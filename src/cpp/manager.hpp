@@ -15,6 +15,9 @@ public:
 
   WorldRef add(dart::simulation::WorldPtr world);
 
+  /// The world of an id; throws if there is none.
+  WorldRef find(long id);
+
   /// Ends one world: every later use of a handle into it throws.
   void destroy(WorldRecord& world);
 
@@ -23,7 +26,7 @@ public:
 
 private:
   std::mutex mutex_;
-  std::map<int, std::weak_ptr<WorldRecord>> worlds_;
+  std::map<long, std::weak_ptr<WorldRecord>> worlds_;
   int next_id_ = 0;
 };
 

@@ -132,6 +132,11 @@ WorldHandle WorldHandle::load_text(const std::string& skel_xml)
   return WorldHandle(load_world_text(skel_xml));
 }
 
+WorldHandle WorldHandle::find(long id)
+{
+  return WorldHandle(Manager::instance().find(id));
+}
+
 WorldRecord& WorldHandle::world() const
 {
   record_->check();

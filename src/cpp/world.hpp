@@ -24,6 +24,9 @@ public:
   static WorldHandle load(const std::string& skel_path);
   static WorldHandle load_text(const std::string& skel_xml);
 
+  /// The world of an id, if it lives.
+  static WorldHandle find(long id);
+
   int id() const { return record_->id; }
   void destroy();
 
@@ -86,6 +89,7 @@ public:
 
 private:
   explicit WorldHandle(dart::simulation::WorldPtr world);
+  explicit WorldHandle(WorldRef record) : record_(std::move(record)) {}
   WorldRecord& world() const;
 
   WorldRef record_;
