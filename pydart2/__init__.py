@@ -42,7 +42,7 @@ from pydart2.softbody import SoftBodyNode
 from pydart2.world import World, create_world
 
 if TYPE_CHECKING:
-    from pydart2 import utils
+    from pydart2 import gui, utils
 
     __version__: str
 
@@ -82,6 +82,7 @@ __all__ = [
     "create_world",
     "data_files",
     "data_path",
+    "gui",
     "init",
     "papi",
     "pydart2_api",
@@ -97,8 +98,8 @@ def __getattr__(name: str) -> object:
         from importlib.metadata import version
 
         return version("pydart2")
-    if name == "utils":
+    if name in ("gui", "utils"):
         from importlib import import_module
 
-        return import_module("pydart2.utils")
+        return import_module(f"pydart2.{name}")
     raise AttributeError(f"module 'pydart2' has no attribute {name!r}")

@@ -18,6 +18,7 @@
 %include "dof.i"
 %include "joint.i"
 %include "marker.i"
+%include "mesh.i"
 %include "shape.i"
 %include "soft_body.i"
 %include "bodynode.i"

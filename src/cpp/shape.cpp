@@ -11,37 +11,15 @@
 #include <dart/dynamics/PlaneShape.hpp>
 #include <dart/dynamics/PyramidShape.hpp>
 #include <dart/dynamics/SphereShape.hpp>
-#include <type_traits>
 
 #include "checks.hpp"
+#include "shape_kinds.hpp"
 
 namespace pydart2 {
 
 using namespace dart::dynamics;
 
 namespace {
-
-/// A list of shape classes.
-template <class... Kinds>
-struct OneOf
-{
-};
-
-[[noreturn]] void wrong_kind(const Shape& shape, const char* asked)
-{
-  throw Error(Kind::type, "a " + shape.getType() + " has no " + asked);
-}
-
-/// Calls `use` with the shape as the first of `Kinds` that it is; TypeError if it is none of them.
-template <class Use, class First, class... Rest>
-auto with(Shape& shape, const char* asked, OneOf<First, Rest...>, Use use)
-{
-  if (auto* cast = dynamic_cast<First*>(&shape))
-    return use(*cast);
-  if constexpr (sizeof...(Rest) > 0)
-    return with(shape, asked, OneOf<Rest...>{}, use);
-  wrong_kind(shape, asked);
-}
 
 using WithRadius = OneOf<SphereShape, CylinderShape, CapsuleShape, ConeShape>;
 using WithHeight = OneOf<CylinderShape, CapsuleShape, ConeShape, PyramidShape>;
@@ -72,6 +50,16 @@ Shape& ShapeHandle::shape() const
 std::string ShapeHandle::type() const
 {
   return shape().getType();
+}
+
+long ShapeHandle::id() const
+{
+  return static_cast<long>(shape().getID());
+}
+
+long ShapeHandle::version() const
+{
+  return static_cast<long>(shape().getVersion());
 }
 
 double ShapeHandle::volume() const

@@ -11,6 +11,8 @@
 
 namespace pydart2 {
 
+class MeshHandle;
+
 /// The geometry of a shape node. What only some kinds have throws TypeError on the others; lengths in metres.
 class ShapeHandle
 {
@@ -23,6 +25,11 @@ public:
 
   /// DART's class name, as "BoxShape".
   std::string type() const;
+
+  /// Of the shape among all shapes of the process, and how often its data has changed.
+  long id() const;
+  long version() const;
+
   double volume() const;
   Eigen::Vector3d bounding_box_min() const;
   Eigen::Vector3d bounding_box_max() const;
@@ -60,6 +67,25 @@ public:
   Eigen::Vector3d scale() const;
   /// Mesh: the file that it came from.
   std::string path() const;
+  /// Mesh, arrow: the meshes in the file, and whether their materials give the colours.
+  int num_meshes() const;
+  MeshHandle mesh(long index) const;
+  bool uses_materials() const;
+
+  /// Heightmap: heights above the shape's xy plane, not scaled; row 0 at the greatest y, column 0 at the least x.
+  void heights(Output& out) const;
+
+  /// Line segments: both ends of each, a row of six numbers; width in pixels.
+  void segments(Output& out) const;
+  double thickness() const;
+
+  /// Point cloud: positions; colours (no rows if all have the shape's own); edge or diameter of what marks a point.
+  void points(Output& out) const;
+  void point_colors(Output& out) const;
+  double point_size() const;
+
+  /// Voxel grid: centre and edge of each occupied cell, rows of four numbers.
+  void voxels(Output& out) const;
 
 private:
   dart::dynamics::Shape& shape() const;

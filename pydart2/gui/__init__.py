@@ -1,0 +1,27 @@
+"""Pictures and windows. Nothing of OpenGL or Qt is imported before it is used.
+
+>>> picture = pydart2.gui.render(world, 640, 480)
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from pydart2.gui.camera import Camera
+from pydart2.gui.trackball import Trackball
+
+if TYPE_CHECKING:
+    from pydart2.gui.offscreen import OffscreenRenderer, render
+
+__all__ = ["Camera", "OffscreenRenderer", "Trackball", "render"]
+
+_MODULES = ("glut", "opengl", "pyqt5", "viewer")
+
+
+def __getattr__(name: str) -> object:
+    if name in ("OffscreenRenderer", "render"):
+        return getattr(import_module("pydart2.gui.offscreen"), name)
+    if name in _MODULES:
+        return import_module(f"pydart2.gui.{name}")
+    raise AttributeError(f"module 'pydart2.gui' has no attribute {name!r}")

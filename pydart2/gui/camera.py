@@ -1,0 +1,100 @@
+"""Cameras: where the eye is and how wide it sees. NumPy only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pydart2.gui.trackball import Trackball
+
+Matrix = NDArray[np.float64]
+
+#: What `camera=` may be in pydart2.gui: 0 (Y up), 1 (Z up), a Trackball, a Camera, or (pose, field of view).
+CameraLike = "int | Trackball | Camera | tuple[ArrayLike, float]"
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """A perspective camera.
+
+    Attributes
+    ----------
+    view : (4, 4)
+        From the world to the eye, which looks along its -z, with x to the right and y upwards.
+    fov : float
+        Vertical field of view, rad.
+    near, far : float
+        What is nearer or further along the optical axis is not drawn, m.
+    """
+
+    view: Matrix
+    fov: float = np.pi / 4.0
+    near: float = 0.01
+    far: float = 100.0
+
+    @classmethod
+    def look_at(cls, eye: ArrayLike, target: ArrayLike, up: ArrayLike, fov: float = np.pi / 4.0) -> Camera:
+        """A camera at `eye` that sees `target` in the middle and `up` upwards, each of shape (3,), m."""
+        position = np.asarray(eye, dtype=float)
+        back = position - np.asarray(target, dtype=float)
+        back /= np.linalg.norm(back)
+        right = np.cross(np.asarray(up, dtype=float), back)
+        if not np.linalg.norm(right) > 1e-9 * np.linalg.norm(up):
+            raise ValueError("the camera looks along `up`; choose another up")
+        right /= np.linalg.norm(right)
+        view = np.eye(4)
+        view[:3, :3] = right, np.cross(back, right), back
+        view[:3, 3] = -view[:3, :3] @ position
+        return cls(view, fov)
+
+    @property
+    def pose(self) -> Matrix:
+        """Of the eye in the world, shape (4, 4)."""
+        return np.linalg.inv(self.view)
+
+    @cached_property
+    def position(self) -> NDArray[np.float64]:
+        """Of the eye in the world, shape (3,), m."""
+        return np.asarray(-np.linalg.solve(self.view[:3, :3], self.view[:3, 3]))
+
+    def projection(self, aspect: float) -> Matrix:
+        """From the eye to OpenGL's clip coordinates, shape (4, 4); `aspect` is width / height."""
+        top = 1.0 / np.tan(self.fov / 2.0)
+        depth = self.near - self.far
+        matrix = np.zeros((4, 4))
+        matrix[0, 0], matrix[1, 1] = top / aspect, top
+        matrix[2, 2:] = (self.far + self.near) / depth, 2.0 * self.far * self.near / depth
+        matrix[3, 2] = -1.0
+        return matrix
+
+
+def default_trackballs() -> list[tuple[str, Trackball]]:
+    """The names and trackballs of cameras 0 and 1."""
+    return [
+        ("Camera Y up", Trackball(rot=[-0.152, 0.045, -0.002, 0.987], trans=[0.050, 0.210, -2.500])),
+        ("Camera Z up", Trackball(rot=[0.535, 0.284, 0.376, 0.701], trans=[0.10, 0.02, -2.770])),
+    ]
+
+
+def as_camera(camera: int | Trackball | Camera | tuple[ArrayLike, float]) -> Camera:
+    """The camera that is meant: 0 (Y up), 1 (Z up), a Trackball, a Camera, or (pose of shape (4, 4), vertical field
+    of view in rad); the eye of a pose looks along its -z, with y upwards."""
+    if isinstance(camera, Camera):
+        return camera
+    if isinstance(camera, Trackball):
+        return Camera(camera.view)
+    if isinstance(camera, (int, np.integer)):
+        trackballs = default_trackballs()
+        if not 0 <= camera < len(trackballs):
+            raise ValueError(f"no camera {camera}; 0 is Y up, 1 is Z up")
+        return Camera(trackballs[int(camera)][1].view)
+    pose, fov = camera
+    matrix = np.asarray(pose, dtype=float)
+    if matrix.shape != (4, 4) or not np.isfinite(matrix).all() or abs(np.linalg.det(matrix)) < 1e-9:
+        raise ValueError(f"a camera's pose is an invertible (4, 4) matrix, not one of shape {matrix.shape}")
+    if not 0.0 < fov < np.pi:
+        raise ValueError(f"a camera's field of view is an angle between 0 and pi rad, not {fov}")
+    return Camera(np.linalg.inv(matrix), float(fov))

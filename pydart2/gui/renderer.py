@@ -1,0 +1,305 @@
+"""Draws scenes with OpenGL into whatever framebuffer is bound, in whichever context is current."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from OpenGL import GL
+
+from pydart2.gui import shaders
+from pydart2.gui.buffers import INSTANCE_FLOATS, Pool, Textures
+from pydart2.gui.context import ContextError, current_context, load_opengl
+from pydart2.gui.geometry import Mesh
+from pydart2.gui.scene import Item, Scene
+from pydart2.gui.shaders import Program
+from pydart2.gui.shadow import ShadowMap
+
+Matrix = NDArray[np.float64]
+
+_COMMAND_BYTES = 20
+_BIAS = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0, 0, 0, 1.0]])
+
+
+@dataclass
+class Style:
+    """How pictures look; colours are RGB, 0 to 1.
+
+    Attributes
+    ----------
+    shadows : bool
+    shadow_size : int
+        Pixels of the shadow map along an edge.
+    wireframe : bool
+    background_top, background_bottom : (3,)
+    light : (3,)
+        Direction towards the light: to the right, up, and to the front.
+    """
+
+    shadows: bool = True
+    shadow_size: int = 1024
+    wireframe: bool = False
+    background_top: tuple[float, float, float] = (0.80, 0.86, 0.93)
+    background_bottom: tuple[float, float, float] = (0.97, 0.98, 0.99)
+    light: tuple[float, float, float] = (0.45, 1.0, 0.6)
+
+
+class _Bucket(NamedTuple):
+    """What can be drawn with one program and one set of buffers."""
+
+    pool: int
+    ground: bool
+    closed: bool
+    texture: str | None
+
+
+class _Batch(NamedTuple):
+    bucket: _Bucket
+    first: int  # command
+    count: int
+
+
+class SceneRenderer:
+    """Draws scenes; of use only in the context that was current when it was made, or one that shares with it.
+
+    Raises
+    ------
+    ContextError
+        If no context is current, or it is older than OpenGL 4.3 or a core profile.
+    """
+
+    def __init__(self, style: Style | None = None) -> None:
+        load_opengl()
+        check_context()
+        self.style = style or Style()
+        self._programs: dict[tuple[str, ...], Program] = {}
+        self._sky, self._bodies = shaders.sky(), shaders.bodies()
+        self._instances, self._commands = (int(name) for name in GL.glGenBuffers(2))
+        self._pools = [Pool(self._instances, rich) for rich in (False, True)] + [Pool(self._instances, False)]
+        self._textures = Textures()
+        self._shadow: ShadowMap | None = None
+        self._frame = 0
+
+    def clear(self) -> None:
+        """Fill the picture with the background."""
+        GL.glDepthMask(True)
+        GL.glColorMask(True, True, True, True)
+        GL.glDisable(GL.GL_SCISSOR_TEST)
+        GL.glClear(GL.GL_DEPTH_BUFFER_BIT | GL.GL_COLOR_BUFFER_BIT)
+        GL.glDisable(GL.GL_DEPTH_TEST)
+        GL.glDisable(GL.GL_CULL_FACE)
+        GL.glDisable(GL.GL_BLEND)
+        self._sky.use()
+        self._sky.set(top=self.style.background_top, bottom=self.style.background_bottom)
+        GL.glBindVertexArray(self._pools[0].vao)
+        GL.glDrawArrays(GL.GL_TRIANGLE_STRIP, 0, 4)
+        _leave()
+
+    def draw(self, scene: Scene, view: Matrix, projection: Matrix) -> None:
+        """Draw a scene into the framebuffer and viewport that are set, through matrices (4, 4)."""
+        if not scene.items:
+            return
+        eye = -np.linalg.solve(view[:3, :3], view[:3, 3])
+        batches, blended = self._prepare(scene, eye)
+        GL.glEnable(GL.GL_DEPTH_TEST)
+        GL.glDepthFunc(GL.GL_LESS)
+        GL.glDisable(GL.GL_BLEND)
+        light = self._light(scene)
+        shadow, texel = self._draw_shadow(scene, batches, light)
+        uniforms = {
+            "view_projection": projection @ view,
+            "eye": eye,
+            "up": scene.up,
+            "light": light,
+            "key": np.array([0.62, 0.6, 0.57]),
+            "sky": np.array([0.30, 0.32, 0.35]),
+            "floor": np.array([0.17, 0.16, 0.15]),
+            "fill": np.array([0.17, 0.17, 0.17]),
+            "shadow": _BIAS @ shadow,
+            "shadow_push": 1.5 * texel,
+            "shadow_size": 1.0 / self.style.shadow_size,
+            "shadow_map": 1,
+        }
+        for batch in batches:
+            self._begin_lit(batch.bucket, texel > 0.0, uniforms)
+            self._draw_batch(batch)
+        GL.glEnable(GL.GL_BLEND)
+        GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
+        GL.glDepthMask(False)
+        for batch in blended:
+            self._begin_lit(batch.bucket, texel > 0.0, uniforms)
+            self._draw_batch(batch)
+        GL.glDepthMask(True)
+        _leave()
+
+    def draw_bodies(self, scene: Scene, view: Matrix, projection: Matrix) -> None:
+        """Draw skeleton and body ids into colour attachment 0 (two integers), depth in m into attachment 1 (float)."""
+        if not scene.items:
+            return
+        batches, blended = self._prepare(scene, np.zeros(3))
+        GL.glEnable(GL.GL_DEPTH_TEST)
+        GL.glDisable(GL.GL_BLEND)
+        self._bodies.use()
+        self._bodies.set(view_projection=projection @ view, depth_row=-view[2])
+        for batch in batches + blended:
+            _cull(batch.bucket)
+            self._draw_batch(batch)
+        _leave()
+
+    def _light(self, scene: Scene) -> NDArray[np.float64]:
+        """Direction towards the light, in the world."""
+        right, up, front = self.style.light
+        x = np.array([1.0, 0.0, 0.0]) if abs(scene.up[0]) < 0.7 else np.array([0.0, 1.0, 0.0])
+        z = np.cross(x, scene.up)
+        light = right * x + up * scene.up + front * z / np.linalg.norm(z)
+        return np.asarray(light / np.linalg.norm(light))
+
+    def _draw_shadow(self, scene: Scene, batches: list[_Batch], light: NDArray[np.float64]) -> tuple[Matrix, float]:
+        casters = [item for item in scene.items if not item.ground and item.rgba[3] > 0.5]
+        if not self.style.shadows or not casters:
+            return np.eye(4), 0.0
+        if self._shadow is None or self._shadow.size != self.style.shadow_size:
+            self._shadow = ShadowMap(self.style.shadow_size)
+        matrix, texel = self._shadow.fit(casters, light)
+        before = self._shadow.begin(matrix)
+        for batch in batches:
+            if not batch.bucket.ground:
+                _cull(batch.bucket)
+                self._draw_batch(batch)
+        self._shadow.end(before)
+        GL.glActiveTexture(GL.GL_TEXTURE1)
+        GL.glBindTexture(GL.GL_TEXTURE_2D, self._shadow.texture)
+        return matrix, texel
+
+    def _begin_lit(self, bucket: _Bucket, shadows: bool, uniforms: dict[str, object]) -> None:
+        features = []
+        if self._pools[bucket.pool].rich:
+            features.append("RICH")
+            GL.glActiveTexture(GL.GL_TEXTURE0)
+            GL.glBindTexture(GL.GL_TEXTURE_2D, self._textures[bucket.texture])
+        if bucket.ground:
+            features.append("GROUND")
+        if bucket.closed:
+            features.append("CLOSED")
+        if shadows:
+            features.append("SHADOW")
+        key = tuple(features)
+        if key not in self._programs:
+            self._programs[key] = shaders.lit(*features)
+        program = self._programs[key]
+        program.use()
+        program.set(texture=0, **uniforms)
+        _cull(bucket)
+        GL.glPolygonMode(GL.GL_FRONT_AND_BACK, GL.GL_LINE if self.style.wireframe else GL.GL_FILL)
+
+    def _draw_batch(self, batch: _Batch) -> None:
+        GL.glBindVertexArray(self._pools[batch.bucket.pool].vao)
+        start = ctypes.c_void_p(_COMMAND_BYTES * batch.first)
+        GL.glMultiDrawElementsIndirect(GL.GL_TRIANGLES, GL.GL_UNSIGNED_INT, start, batch.count, 0)
+
+    def _prepare(self, scene: Scene, eye: NDArray[np.float64]) -> tuple[list[_Batch], list[_Batch]]:
+        """Put the scene into the buffers; the batches of what is opaque and, from far to near, of what is not."""
+        self._frame += 1
+        buckets: dict[_Bucket, dict[Mesh, list[Item]]] = {}
+        see_through: list[tuple[float, _Bucket, Item]] = []
+        for item in scene.items:
+            bucket = _bucket(item)
+            if item.rgba[3] < 1.0:
+                see_through.append((float(np.sum((item.transform[:3, 3] - eye) ** 2)), bucket, item))
+            else:
+                buckets.setdefault(bucket, {}).setdefault(item.mesh, []).append(item)
+        see_through.sort(key=lambda entry: -entry[0])
+        self._load(scene)
+
+        commands: list[tuple[int, ...]] = []
+        ordered: list[Item] = []
+        opaque, blended = [], []
+        for bucket, groups in buckets.items():
+            opaque.append(_Batch(bucket, len(commands), len(groups)))
+            for mesh, items in groups.items():
+                commands.append(self._command(bucket, mesh, len(items), len(ordered)))
+                ordered += items
+        for _, bucket, item in see_through:
+            blended.append(_Batch(bucket, len(commands), 1))
+            commands.append(self._command(bucket, item.mesh, 1, len(ordered)))
+            ordered.append(item)
+        self._upload(np.array(commands, np.uint32), ordered)
+        return opaque, blended
+
+    def _load(self, scene: Scene) -> None:
+        wanted: list[set[Mesh]] = [set(), set(), set()]
+        for item in scene.items:
+            wanted[_pool(item.mesh)].add(item.mesh)
+        for pool, meshes in zip(self._pools[:2], wanted):
+            pool.require(meshes, self._frame)
+        if wanted[2]:
+            self._pools[2].set(wanted[2])
+
+    def _command(self, bucket: _Bucket, mesh: Mesh, count: int, first: int) -> tuple[int, ...]:
+        part = self._pools[bucket.pool].part(mesh)
+        return part.count, count, part.first_index, part.base_vertex, first
+
+    def _upload(self, commands: NDArray[np.uint32], items: list[Item]) -> None:
+        rows = np.empty((len(items), INSTANCE_FLOATS), np.float32)
+        rows[:, :12] = np.array([item.transform for item in items])[:, :3].reshape(-1, 12)
+        rows[:, 12:16] = np.array([item.rgba for item in items])
+        rows[:, 16] = [item.specular for item in items]
+        rows[:, 17:19] = [item.ids for item in items]
+        rows[:, 19] = [_cell(item) if item.ground else 0.0 for item in items]
+        GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self._instances)
+        GL.glBufferData(GL.GL_ARRAY_BUFFER, rows.nbytes, rows, GL.GL_STREAM_DRAW)
+        GL.glBindBuffer(GL.GL_ARRAY_BUFFER, 0)
+        GL.glBindBuffer(GL.GL_DRAW_INDIRECT_BUFFER, self._commands)
+        GL.glBufferData(GL.GL_DRAW_INDIRECT_BUFFER, commands.nbytes, commands, GL.GL_STREAM_DRAW)
+
+
+def check_context() -> None:
+    """ContextError unless a context is current that this renderer can use."""
+    if not current_context() and not GL.glGetString(GL.GL_VERSION):
+        raise ContextError("no OpenGL context is current in this thread")
+    version = GL.glGetIntegerv(GL.GL_MAJOR_VERSION), GL.glGetIntegerv(GL.GL_MINOR_VERSION)
+    if (int(version[0]), int(version[1])) < (4, 3):
+        raise ContextError(f"OpenGL 4.3 is needed, this is {GL.glGetString(GL.GL_VERSION).decode()}")
+    if not GL.glGetIntegerv(GL.GL_CONTEXT_PROFILE_MASK) & GL.GL_CONTEXT_COMPATIBILITY_PROFILE_BIT:
+        raise ContextError("an OpenGL context in the compatibility profile is needed, this is a core profile")
+
+
+def _pool(mesh: Mesh) -> int:
+    if mesh.texture_coordinates is not None or mesh.colors is not None:
+        return 1
+    return 0 if mesh.is_lasting else 2
+
+
+def _bucket(item: Item) -> _Bucket:
+    mesh = item.mesh
+    mirrored = np.linalg.det(item.transform[:3, :3]) < 0.0
+    return _Bucket(_pool(mesh), item.ground, mesh.is_closed and not mirrored, mesh.texture)
+
+
+def _cell(item: Item) -> float:
+    """Edge of the cells of a floor's grid, m."""
+    low, high = item.mesh.bounds
+    size = float(np.sort(np.abs(item.transform[:3, :3] @ (high - low)))[1])
+    return 1.0 if size >= 8.0 else 0.5 if size >= 4.0 else 0.25
+
+
+def _cull(bucket: _Bucket) -> None:
+    if bucket.closed:
+        GL.glEnable(GL.GL_CULL_FACE)
+    else:
+        GL.glDisable(GL.GL_CULL_FACE)
+
+
+def _leave() -> None:
+    """Leave nothing bound that could disturb OpenGL calls of others."""
+    GL.glUseProgram(0)
+    GL.glBindVertexArray(0)
+    GL.glBindBuffer(GL.GL_DRAW_INDIRECT_BUFFER, 0)
+    for unit in (GL.GL_TEXTURE1, GL.GL_TEXTURE0):
+        GL.glActiveTexture(unit)
+        GL.glBindTexture(GL.GL_TEXTURE_2D, 0)
+    GL.glDisable(GL.GL_CULL_FACE)
+    GL.glPolygonMode(GL.GL_FRONT_AND_BACK, GL.GL_FILL)

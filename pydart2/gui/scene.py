@@ -1,0 +1,207 @@
+"""What there is to draw in a world: meshes with poses and colours. NumPy only."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pydart2.gui import geometry
+from pydart2.gui.geometry import Mesh
+
+if TYPE_CHECKING:
+    from pydart2.shapenode import ShapeNode
+    from pydart2.skeleton import Skeleton
+    from pydart2.world import World
+
+Array = NDArray[np.float64]
+
+NOBODY = (-1, -1)
+
+
+class Item(NamedTuple):
+    """One mesh to draw.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        Items with the same object are drawn in one go.
+    transform : (4, 4)
+        From the mesh to the world, m; may scale.
+    rgba : (4,)
+        0 to 1, the alpha too.
+    ids : (skeleton id, body id)
+        -1 for what belongs to no body.
+    ground : bool
+        Whether it is a floor, which gets a grid and throws no shadow.
+    specular : float
+        Strength of highlights, 0 to 1.
+    """
+
+    mesh: Mesh
+    transform: Array
+    rgba: Array
+    ids: tuple[int, int] = NOBODY
+    ground: bool = False
+    specular: float = 0.2
+
+
+class Scene:
+    """Items, and which way is up.
+
+    >>> scene = Scene()
+    >>> scene.add_world(world)
+    >>> scene.add_frame(world.skeletons[-1].bodynodes[0].T, 0.2)
+
+    Attributes
+    ----------
+    items : list of Item
+    up : (3,)
+        Unit vector; light comes from above.
+    """
+
+    def __init__(self, up: ArrayLike = (0.0, 1.0, 0.0)) -> None:
+        self.items: list[Item] = []
+        self.up: Array = np.asarray(up, dtype=float)
+
+    def __iter__(self) -> Iterator[Item]:
+        return iter(self.items)
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def add(
+        self,
+        mesh: Mesh,
+        transform: Array,
+        scale: ArrayLike = 1.0,
+        rgba: ArrayLike = (0.7, 0.7, 0.7, 1.0),
+        ids: tuple[int, int] = NOBODY,
+        *,
+        ground: bool = False,
+        specular: float = 0.2,
+    ) -> None:
+        """Add a mesh: pose in the world (4, 4), factors along the mesh's axes (3,) or one, colour."""
+        matrix = transform.copy()
+        matrix[:, :3] *= scale
+        color = np.ones(4)
+        color[: len(np.atleast_1d(rgba))] = rgba
+        self.items.append(Item(mesh, matrix, color, ids, ground, specular))
+
+    def add_world(self, world: World, *, markers: bool = True, contacts: bool = True) -> None:
+        """Add the skeletons of a world, with their markers and the contacts if wanted, and take its up."""
+        self.up = up_of(world)
+        for skel in world.skeletons:
+            self.add_skeleton(skel)
+            if markers:
+                for marker in skel.markers:
+                    self.add_marker(marker.p, (skel.id, marker.bodynode.id))
+        if contacts:
+            self.add_contacts(world.collision_result.rows)
+
+    def add_skeleton(self, skel: Skeleton, rgba: ArrayLike | None = None) -> None:
+        """Add the visible shapes of a skeleton, all in one colour if it is given."""
+        from pydart2.gui.shapes import add_shapenode
+
+        for body in skel.bodynodes:
+            for node in body.shapenodes:
+                if _is_drawn(node):
+                    add_shapenode(self, node, rgba)
+
+    def add_marker(self, position: Array, ids: tuple[int, int] = NOBODY, radius: float = 0.01) -> None:
+        """Add a marker at a position (3,), m."""
+        self.add(geometry.sphere(2), _at(position), radius, (0.95, 0.35, 0.15), ids)
+
+    def add_contacts(self, rows: Array, size: float = 0.01, force_scale: float = -0.005) -> None:
+        """Add contacts, rows of `CollisionResult.rows`: a dot of radius `size`, m, and an arrow along the force.
+
+        `force_scale` is the length of the arrow, m/N; negative shows the force on the second body.
+        """
+        for row in rows:
+            point, force = row[:3], row[3:6]
+            self.add(geometry.sphere(2), _at(point), size, _FORCE)
+            self.add_arrow(point, point + force_scale * force, 0.3 * size)
+
+    def add_arrow(
+        self, start: ArrayLike, end: ArrayLike, radius: float = 0.01, rgba: ArrayLike = (0.85, 0.2, 0.2)
+    ) -> None:
+        """Add an arrow between two points (3,), m; the head is part of its length. No arrow if they are the same."""
+        tail, tip = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+        length = float(np.linalg.norm(tip - tail))
+        if length == 0.0 or not np.isfinite(length):
+            return
+        head = min(5.0 * radius, 0.5 * length)
+        neck = tip - (tip - tail) * (head / length)
+        self.add(geometry.cylinder(), between(tail, neck), (radius, radius, length - head), rgba)
+        self.add(geometry.cone(), between(neck, tip), (2.2 * radius, 2.2 * radius, head), rgba)
+
+    def add_line(self, start: ArrayLike, end: ArrayLike, radius: float, rgba: ArrayLike) -> None:
+        """Add a thin rod between two points (3,), m."""
+        a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+        length = float(np.linalg.norm(b - a))
+        if length > 0.0:
+            self.add(geometry.cylinder(), between(a, b), (radius, radius, length), rgba)
+
+    def add_frame(self, transform: Array, length: float = 0.1) -> None:
+        """Add the axes of a frame, pose (4, 4): x red, y green, z blue; `length` in m."""
+        for axis, rgba in enumerate(((0.9, 0.2, 0.2), (0.2, 0.7, 0.2), (0.2, 0.35, 0.95))):
+            origin = transform[:3, 3]
+            self.add_arrow(origin, origin + length * transform[:3, axis], 0.04 * length, rgba)
+
+    def add_ground(self, height: float = 0.0, size: float = 20.0, rgba: ArrayLike = (0.86, 0.88, 0.9)) -> None:
+        """Add a square floor with a grid at a height over the origin, m."""
+        self.add(geometry.quad(), between(height * self.up, (height + 1.0) * self.up, 0.0), size, rgba, ground=True)
+
+
+_FORCE = (0.9, 0.15, 0.15)
+
+
+def from_world(world: World, *, markers: bool = True, contacts: bool = True) -> Scene:
+    """All that is to be drawn of a world."""
+    scene = Scene()
+    scene.add_world(world, markers=markers, contacts=contacts)
+    return scene
+
+
+def up_of(world: World) -> Array:
+    """Against gravity, unit vector of shape (3,); +y if there is none."""
+    gravity = world.gravity()
+    length = float(np.linalg.norm(gravity))
+    return -gravity / length if length > 0.0 else np.array([0.0, 1.0, 0.0])
+
+
+def between(start: Array, end: Array, part: float = 0.5) -> Array:
+    """A pose (4, 4) whose z axis points from `start` to `end`, its origin at this part of the way."""
+    z = (end - start) / np.linalg.norm(end - start)
+    x = np.cross(np.eye(3)[np.argmin(np.abs(z))], z)
+    x /= np.linalg.norm(x)
+    pose = np.eye(4)
+    pose[:3, :3] = np.stack([x, np.cross(z, x), z], axis=1)
+    pose[:3, 3] = start + part * (end - start)
+    return pose
+
+
+def boxes(items: Iterable[Item]) -> Array:
+    """Lowest and highest corner in the world of the box around each item, shape (n, 2, 3)."""
+    chosen = list(items)
+    if not chosen:
+        return np.empty((0, 2, 3))
+    bounds = np.array([item.mesh.bounds for item in chosen])
+    matrices = np.array([item.transform for item in chosen])
+    middle, half = bounds.mean(axis=1), np.diff(bounds, axis=1)[:, 0] / 2.0
+    centre = np.einsum("nij,nj->ni", matrices[:, :3, :3], middle) + matrices[:, :3, 3]
+    reach = np.einsum("nij,nj->ni", np.abs(matrices[:, :3, :3]), half)
+    return np.stack([centre - reach, centre + reach], axis=1)
+
+
+def _is_drawn(node: ShapeNode) -> bool:
+    handle = node._handle
+    return node.shape is not None and handle.has_visual_aspect() and not handle.is_hidden()
+
+
+def _at(position: Array) -> Array:
+    pose = np.eye(4)
+    pose[:3, 3] = position
+    return pose

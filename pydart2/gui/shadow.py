@@ -1,0 +1,79 @@
+"""The shadow map: what the light sees."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from OpenGL import GL
+
+from pydart2.gui import scene as scenes
+from pydart2.gui import shaders
+from pydart2.gui.scene import Item
+
+Matrix = NDArray[np.float64]
+
+
+class ShadowMap:
+    """A depth picture from the light, `size` pixels wide and high."""
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+        self.program = shaders.shadow()
+        self.texture = int(GL.glGenTextures(1))
+        GL.glBindTexture(GL.GL_TEXTURE_2D, self.texture)
+        kind = (GL.GL_DEPTH_COMPONENT, GL.GL_UNSIGNED_INT)
+        GL.glTexImage2D(GL.GL_TEXTURE_2D, 0, GL.GL_DEPTH_COMPONENT24, size, size, 0, *kind, None)
+        for key, value in (
+            (GL.GL_TEXTURE_MIN_FILTER, GL.GL_LINEAR),
+            (GL.GL_TEXTURE_MAG_FILTER, GL.GL_LINEAR),
+            (GL.GL_TEXTURE_WRAP_S, GL.GL_CLAMP_TO_BORDER),
+            (GL.GL_TEXTURE_WRAP_T, GL.GL_CLAMP_TO_BORDER),
+            (GL.GL_TEXTURE_COMPARE_MODE, GL.GL_COMPARE_REF_TO_TEXTURE),
+        ):
+            GL.glTexParameteri(GL.GL_TEXTURE_2D, key, value)
+        GL.glTexParameterfv(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_BORDER_COLOR, np.ones(4, np.float32))
+        GL.glBindTexture(GL.GL_TEXTURE_2D, 0)
+        self._framebuffer = int(GL.glGenFramebuffers(1))
+
+    def begin(self, matrix: Matrix) -> Any:
+        """Draw into the map from now on, through a matrix of `fit`; returns what `end` wants."""
+        before = GL.glGetIntegerv(GL.GL_DRAW_FRAMEBUFFER_BINDING), GL.glGetIntegerv(GL.GL_VIEWPORT)
+        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._framebuffer)
+        target = (GL.GL_DRAW_FRAMEBUFFER, GL.GL_DEPTH_ATTACHMENT, GL.GL_TEXTURE_2D)
+        GL.glFramebufferTexture2D(*target, self.texture, 0)
+        GL.glViewport(0, 0, self.size, self.size)
+        GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
+        GL.glEnable(GL.GL_POLYGON_OFFSET_FILL)
+        GL.glPolygonOffset(1.5, 2.0)
+        self.program.use()
+        self.program.set(view_projection=matrix)
+        return before
+
+    def end(self, before: Any) -> None:
+        """Draw again where that was done before."""
+        GL.glDisable(GL.GL_POLYGON_OFFSET_FILL)
+        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, int(before[0]))
+        GL.glViewport(*before[1])
+
+    def fit(self, casters: list[Item], light: NDArray[np.float64]) -> tuple[Matrix, float]:
+        """The light's view and projection, (4, 4), around what throws shadows, and the size of a texel in m.
+
+        The edges keep to a coarse grid, so that shadows do not flicker when things move.
+        """
+        turn = scenes.between(np.zeros(3), light)[:3, :3].T
+        corners = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1]), axis=-1).reshape(-1, 3)
+        bounds = scenes.boxes(casters)
+        points = np.where(corners[None], bounds[:, 1, None], bounds[:, 0, None]).reshape(-1, 3) @ turn.T
+        low, high = points.min(axis=0), points.max(axis=0)
+        size = max(float((high - low)[:2].max()), 1e-3)
+        size = 1.25 ** np.ceil(np.log(1.05 * size) / np.log(1.25))
+        texel = size / self.size
+        grid = 16.0 * texel
+        middle = np.round((low + high) / 2.0 / grid) * grid
+        depth = float(high[2] - low[2]) + 2.0 * grid
+        matrix = np.eye(4)
+        matrix[:3, :3] = turn
+        matrix[:3, 3] = -middle
+        return np.diag([2.0 / size, 2.0 / size, -2.0 / depth, 1.0]) @ matrix, texel

@@ -1,0 +1,6 @@
+%{
+#include "mesh.hpp"
+%}
+
+%ignore pydart2::MeshHandle::MeshHandle; // from ShapeHandle::mesh
+%include "mesh.hpp"
