@@ -104,5 +104,12 @@ class Contact:
             return None
         return self.world.skeletons[skel_id].bodynodes[bodynode_id]
 
+    def render(self, size: float = 0.01, scale: float = -0.005) -> None:
+        """Draw a dot of radius `size`, m, and an arrow along the force, `scale` in m/N, with the current OpenGL context
+        and matrices."""
+        from pydart2.gui import drawing
+
+        drawing.draw_contact(self, size, scale)
+
     def __repr__(self) -> str:
         return f"[Contact {self.point} {self.force}]"

@@ -72,5 +72,11 @@ class Marker:
         """Position in the world, shape (3,), m."""
         return self._handle.world_position()
 
+    def render(self) -> None:
+        """Draw it with the current OpenGL context and matrices."""
+        from pydart2.gui import drawing
+
+        drawing.draw_marker(self)
+
     def __repr__(self) -> str:
         return f"[Marker({self.id})]"

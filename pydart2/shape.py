@@ -82,6 +82,12 @@ class Shape:
         """Lowest and highest corner, two of shape (3,), m, in the shape's frame."""
         return self._handle.bounding_box_min(), self._handle.bounding_box_max()
 
+    def render(self) -> None:
+        """Draw it in grey in the axes of the current OpenGL matrices."""
+        from pydart2.gui import drawing
+
+        drawing.draw_shape(self)
+
     def __repr__(self) -> str:
         return f"[{type(self).__name__}({self.bodynode.id}:{self.id})]"
 

@@ -518,6 +518,18 @@ class Skeleton:
             vector[name] = value
         return vector
 
+    def render(self) -> None:
+        """Draw it with the current OpenGL context and matrices."""
+        from pydart2.gui import drawing
+
+        drawing.draw_skeleton(self)
+
+    def render_with_color(self, color: ArrayLike) -> None:
+        """Draw it in one colour, 3 or 4 numbers, 0 to 1, with the current OpenGL context and matrices."""
+        from pydart2.gui import drawing
+
+        drawing.draw_skeleton(self, color)
+
     def __repr__(self) -> str:
         try:
             return f"[Skeleton({self.id}): {self.name}]"

@@ -303,6 +303,40 @@ class World:
         self.collision_result = CollisionResult.from_rows(self, self._handle.frame_contacts(frame_index))
         return True
 
+    # Drawing, where an OpenGL context is current; pydart2.gui.render() makes pictures without one
+
+    def render(
+        self,
+        render_markers: bool = True,
+        render_contacts: bool = True,
+        render_contact_size: float = 0.01,
+        render_contact_force_scale: float = -0.005,
+    ) -> None:
+        """Draw the world with the current OpenGL context and matrices.
+
+        Parameters
+        ----------
+        render_contact_size
+            Radius of the dots, m.
+        render_contact_force_scale
+            Length of the arrows, m/N; negative for the force on the second body.
+        """
+        from pydart2.gui import drawing
+
+        drawing.draw_world(self, render_markers, render_contacts, render_contact_size, render_contact_force_scale)
+
+    def render_markers(self) -> None:
+        """Draw the markers with the current OpenGL context and matrices."""
+        from pydart2.gui import drawing
+
+        drawing.draw_markers(self)
+
+    def render_contacts(self, render_contact_size: float = 0.01, render_contact_force_scale: float = -0.005) -> None:
+        """Draw the contacts with the current OpenGL context and matrices; the arguments are those of `render`."""
+        from pydart2.gui import drawing
+
+        drawing.draw_contacts(self, render_contact_size, render_contact_force_scale)
+
     def __repr__(self) -> str:
         try:
             return f"[World ID:{self.id} time:{self.t:.4f} # frames: {self.num_frames()}]"

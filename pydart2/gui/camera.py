@@ -12,9 +12,6 @@ from pydart2.gui.trackball import Trackball
 
 Matrix = NDArray[np.float64]
 
-#: What `camera=` may be in pydart2.gui: 0 (Y up), 1 (Z up), a Trackball, a Camera, or (pose, field of view).
-CameraLike = "int | Trackball | Camera | tuple[ArrayLike, float]"
-
 
 @dataclass(frozen=True, eq=False)
 class Camera:

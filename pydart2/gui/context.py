@@ -69,7 +69,9 @@ def load_opengl() -> None:
     try:
         from OpenGL import platform
     except ImportError as error:
-        raise ContextError(f"PyOpenGL cannot be loaded ({error}); pip install PyOpenGL, apt-get install libgl1") from None
+        raise ContextError(
+            f"PyOpenGL cannot be loaded ({error}); pip install PyOpenGL, apt-get install libgl1"
+        ) from None
     loaded = platform.PLATFORM
     if loaded.GetCurrentContext is not current_context and os.environ.get("PYOPENGL_PLATFORM") != "osmesa":
         # PyOpenGL asks the one window system that it was loaded with; the context may have come from the other.

@@ -153,6 +153,24 @@ def quad() -> Mesh:
     return mesh(corners, [[0, 1, 2], [0, 2, 3]], np.tile([0.0, 0.0, 1.0], (4, 1)))
 
 
+@lru_cache(maxsize=16)
+def chessboard(n: int) -> tuple[Mesh, Mesh]:
+    """The squares of both colours of a board of `n` by `n`, 1 wide, about the origin in the xy plane, facing +z."""
+    step = 1.0 / n
+    colors: list[list[Mesh]] = [[], []]
+    for row, column in np.ndindex(n, n):
+        corner = np.array([column, row, 0]) * step - [0.5, 0.5, 0.0]
+        square = quad()
+        moved = Mesh(
+            (square.vertices * step + corner + [step / 2, step / 2, 0.0]).astype(np.float32),
+            square.normals,
+            square.triangles,
+        )
+        colors[(row + column) % 2].append(moved)
+    even, odd = (join(squares) if squares else mesh([], []) for squares in colors)
+    return even, odd
+
+
 def revolve(
     radii: Sequence[float], heights: Sequence[float], normals: Sequence[tuple[float, float]], segments: int
 ) -> Mesh:
@@ -200,8 +218,8 @@ def cone(segments: int = 40) -> Mesh:
 def capsule(height: float, segments: int = 40) -> Mesh:
     """A cylinder of radius 1 and this height along z, with half spheres at its ends; about the origin."""
     angle = np.linspace(-np.pi / 2, np.pi / 2, segments // 2 + 2)
-    angle = np.insert(angle, len(angle) // 2, [0.0, 0.0]) if len(angle) % 2 == 0 else np.insert(
-        angle, len(angle) // 2, 0.0
+    angle = (
+        np.insert(angle, len(angle) // 2, [0.0, 0.0]) if len(angle) % 2 == 0 else np.insert(angle, len(angle) // 2, 0.0)
     )
     radial, up = np.cos(angle), np.sin(angle)
     radial[[0, -1]] = 0.0

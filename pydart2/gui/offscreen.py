@@ -3,32 +3,48 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Literal, overload
+from collections import OrderedDict
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.gui import context as contexts
+from pydart2.gui import scene as scenes
 from pydart2.gui.camera import Camera, as_camera
 from pydart2.gui.trackball import Trackball
-from pydart2.world import World
 
+if TYPE_CHECKING:
+    from pydart2.gui.targets import BodiesTarget, ColorTarget
+
+CameraLike = int | Trackball | Camera | tuple[ArrayLike, float]
 Mode = Literal["rgb", "depth", "segmentation"]
-Picture = NDArray[np.uint8] | NDArray[np.float32] | NDArray[np.int32]
+
+_MODES = ("rgb", "depth", "segmentation")
+_KEPT_TARGETS = 8  # picture sizes whose memory is kept
 
 
 class OffscreenRenderer:
-    """Draws worlds into arrays; one serves many worlds, sizes and threads.
+    """Draws worlds into arrays; one renderer serves many worlds, sizes and threads, one after another.
 
     >>> renderer = OffscreenRenderer(640, 480)
     >>> picture = renderer.render(world)
+    >>> depth = renderer.render(world, mode="depth")
 
     Parameters
     ----------
     width, height
-        Pixels of the pictures.
+        Pixels of the pictures, if `render` is not told others.
     samples
-        Per pixel, for smooth edges: 0, 2, 4 or 8.
+        Per pixel of "rgb" pictures, for smooth edges: 0, 2, 4 or 8.
+
+    Attributes
+    ----------
+    scene : OpenGLScene
+        With `style` and `show` to change how and what is drawn.
 
     Raises
     ------
@@ -37,34 +53,120 @@ class OffscreenRenderer:
     """
 
     def __init__(self, width: int = 640, height: int = 480, samples: int = 4) -> None:
-        
+        _check_size(width, height)
         self.width, self.height, self.samples = width, height, samples
         self._lock = threading.RLock()
         self._context = contexts.create_context()
-        with contexts.current(self._context, self._lock):
-            from pydart2.gui.renderer import SceneRenderer
+        self._targets: OrderedDict[tuple[int, ...], ColorTarget | BodiesTarget] = OrderedDict()
+        with self._current():
+            from pydart2.gui.opengl.scene import OpenGLScene
 
-            self._renderer = SceneRenderer()
-        self._targets: dict[tuple[Any, ...], Any] = {}
+            self.scene = OpenGLScene(width, height)
+            self.scene.init()
 
+    @overload
     def render(
         self,
-        world: World,
+        world: Any,
         width: int | None = None,
         height: int | None = None,
-        camera: int | Trackball | Camera | tuple[ArrayLike, float] = 0,
+        camera: CameraLike = 0,
+        mode: Literal["rgb"] = "rgb",
+    ) -> NDArray[np.uint8]: ...
+    @overload
+    def render(
+        self, world: Any, width: int | None = None, height: int | None = None, camera: CameraLike = 0, *, mode: Mode
+    ) -> NDArray[Any]: ...
+    def render(
+        self,
+        world: Any,
+        width: int | None = None,
+        height: int | None = None,
+        camera: CameraLike = 0,
         mode: Mode = "rgb",
-    ) -> Any:
-        from pydart2.gui import scene as scenes
-        from pydart2.gui.targets import BodiesTarget, ColorTarget
+    ) -> NDArray[Any]:
+        """A picture of a world, or of anything that has `render()`, `render_with_ri(ri)` or `draw_with_ri(ri)`.
 
-        size = width or self.width, height or self.height
+        Parameters
+        ----------
+        world
+            "depth" and "segmentation" show the bodies of a World only.
+        width, height
+            Pixels, if they are not to be those of the renderer.
+        camera
+            0 (Y up), 1 (Z up), a Trackball, a Camera, or (pose, fov): the eye's pose in the world, shape (4, 4), which
+            looks along its -z with y upwards, and the vertical field of view in rad.
+        mode
+            "rgb": (height, width, 3) uint8. "depth": (height, width) float32, m along the optical axis, inf for the
+            background. "segmentation": (height, width, 2) int32, skeleton and body id, -1 for none. Row 0 is on top.
+
+        Raises
+        ------
+        ValueError
+            For an unknown mode or camera, or a size that is not positive.
+        """
+        size = self.width if width is None else width, self.height if height is None else height
+        _check_size(*size)
+        if mode not in _MODES:
+            raise ValueError(f"no mode {mode!r}; there are {', '.join(_MODES)}")
         eye = as_camera(camera)
+        with self._current():
+            return self._render_rgb(world, size, eye) if mode == "rgb" else self._render_bodies(world, size, eye, mode)
+
+    def close(self) -> None:
+        """Free the context; the renderer can no longer be used."""
+        with self._lock:
+            self._context.destroy()
+
+    def _render_rgb(self, world: Any, size: tuple[int, int], camera: Camera) -> NDArray[np.uint8]:
+        from pydart2.gui.targets import ColorTarget
+
+        target = self._target(ColorTarget, *size, self.samples)
+        target.begin()
+        self.scene.width, self.scene.height = size
+        self.scene.render(world, camera)
+        return target.read()
+
+    def _render_bodies(self, world: Any, size: tuple[int, int], camera: Camera, mode: str) -> NDArray[Any]:
+        from pydart2.gui import drawing
+        from pydart2.gui.targets import BodiesTarget
+
+        target = self._target(BodiesTarget, *size)
+        target.begin()
+        show = scenes.Show(markers=False, contacts=False, forces=False)
+        scene = scenes.from_world(world, show)
+        drawing.renderer().draw_bodies(scene, camera.view, camera.projection(size[0] / size[1]))
+        return target.read_depth() if mode == "depth" else target.read_ids()
+
+    def _target(self, kind: Any, *arguments: int) -> Any:
+        key = (kind, *arguments)
+        if key not in self._targets:
+            self._targets[key] = kind(*arguments)
+            while len(self._targets) > _KEPT_TARGETS:
+                self._targets.popitem(last=False)[1].free()
+        self._targets.move_to_end(key)
+        return self._targets[key]
+
+    @contextmanager
+    def _current(self) -> Iterator[None]:
         with contexts.current(self._context, self._lock):
-            projection = eye.projection(size[0] / size[1])
-            scene = scenes.from_world(world)
-            target = ColorTarget(*size, self.samples)
-            target.begin()
-            self._renderer.clear()
-            self._renderer.draw(scene, eye.view, projection)
-            return target.read()
+            yield
+
+
+def render(world: Any, width: int = 640, height: int = 480, camera: CameraLike = 0, mode: Mode = "rgb") -> NDArray[Any]:
+    """A picture of a world without a display; the arguments are those of `OffscreenRenderer.render`.
+
+    >>> picture = pydart2.gui.render(world, 640, 480, camera=1)
+    >>> PIL.Image.fromarray(picture).save("world.png")
+    """
+    return _shared_renderer().render(world, width, height, camera, mode=mode)
+
+
+@lru_cache(maxsize=1)
+def _shared_renderer() -> OffscreenRenderer:
+    return OffscreenRenderer()
+
+
+def _check_size(width: int, height: int) -> None:
+    if not (0 < width <= 16384 and 0 < height <= 16384):
+        raise ValueError(f"a picture is 1 to 16384 pixels wide and high, not {width} by {height}")

@@ -14,7 +14,7 @@ from pydart2.gui import shaders
 from pydart2.gui.buffers import INSTANCE_FLOATS, Pool, Textures
 from pydart2.gui.context import ContextError, current_context, load_opengl
 from pydart2.gui.geometry import Mesh
-from pydart2.gui.scene import Item, Scene
+from pydart2.gui.scene import Item, Scene, Show
 from pydart2.gui.shaders import Program
 from pydart2.gui.shadow import ShadowMap
 
@@ -75,6 +75,10 @@ class SceneRenderer:
         load_opengl()
         check_context()
         self.style = style or Style()
+        self.show = Show()
+        self.letters: dict[int, int] = {}  # textures of the letters by their size
+        self.frame_matrices = np.eye(4), np.eye(4)
+        self._uniforms: dict[str, object] = {}
         self._programs: dict[tuple[str, ...], Program] = {}
         self._sky, self._bodies = shaders.sky(), shaders.bodies()
         self._instances, self._commands = (int(name) for name in GL.glGenBuffers(2))
@@ -82,6 +86,15 @@ class SceneRenderer:
         self._textures = Textures()
         self._shadow: ShadowMap | None = None
         self._frame = 0
+
+    def is_alive(self) -> bool:
+        """Whether its programs are there in the context that is current."""
+        return bool(GL.glIsProgram(self._sky.id))
+
+    def begin_frame(self, view: Matrix, projection: Matrix, up: NDArray[np.float64]) -> None:
+        """Note the camera of a picture, for what is drawn with the fixed pipeline."""
+        self.frame_matrices = view, projection
+        self._uniforms = self._light_uniforms(up, view)
 
     def clear(self) -> None:
         """Fill the picture with the background."""
@@ -102,26 +115,17 @@ class SceneRenderer:
         """Draw a scene into the framebuffer and viewport that are set, through matrices (4, 4)."""
         if not scene.items:
             return
-        eye = -np.linalg.solve(view[:3, :3], view[:3, 3])
-        batches, blended = self._prepare(scene, eye)
+        batches, blended = self._prepare(scene, -np.linalg.solve(view[:3, :3], view[:3, 3]))
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthFunc(GL.GL_LESS)
         GL.glDisable(GL.GL_BLEND)
-        light = self._light(scene)
+        light = self._light(scene.up)
         shadow, texel = self._draw_shadow(scene, batches, light)
-        uniforms = {
+        uniforms = self._uniforms = self._light_uniforms(scene.up, view) | {
             "view_projection": projection @ view,
-            "eye": eye,
-            "up": scene.up,
-            "light": light,
-            "key": np.array([0.62, 0.6, 0.57]),
-            "sky": np.array([0.30, 0.32, 0.35]),
-            "floor": np.array([0.17, 0.16, 0.15]),
-            "fill": np.array([0.17, 0.17, 0.17]),
             "shadow": _BIAS @ shadow,
             "shadow_push": 1.5 * texel,
             "shadow_size": 1.0 / self.style.shadow_size,
-            "shadow_map": 1,
         }
         for batch in batches:
             self._begin_lit(batch.bucket, texel > 0.0, uniforms)
@@ -149,13 +153,41 @@ class SceneRenderer:
             self._draw_batch(batch)
         _leave()
 
-    def _light(self, scene: Scene) -> NDArray[np.float64]:
+    def draw_fixed(self, mesh: Mesh) -> None:
+        """Draw a mesh with OpenGL's own matrices and colour, in the light and the shadows of the scene drawn last."""
+        self._pools[0].require({mesh}, self._frame)
+        part = self._pools[0].part(mesh)
+        shadows = self._shadow is not None and "shadow" in self._uniforms
+        program = self._program("FIXED", *(["SHADOW"] if shadows else []))
+        program.use()
+        program.set(eye_to_world=np.linalg.inv(self.frame_matrices[0]), **self._uniforms)
+        if self._shadow is not None:
+            GL.glActiveTexture(GL.GL_TEXTURE1)
+            GL.glBindTexture(GL.GL_TEXTURE_2D, self._shadow.texture)
+        GL.glBindVertexArray(self._pools[0].vao)
+        start = ctypes.c_void_p(4 * part.first_index)
+        GL.glDrawElementsBaseVertex(GL.GL_TRIANGLES, part.count, GL.GL_UNSIGNED_INT, start, part.base_vertex)
+        _leave()
+
+    def _light(self, up: NDArray[np.float64]) -> NDArray[np.float64]:
         """Direction towards the light, in the world."""
-        right, up, front = self.style.light
-        x = np.array([1.0, 0.0, 0.0]) if abs(scene.up[0]) < 0.7 else np.array([0.0, 1.0, 0.0])
-        z = np.cross(x, scene.up)
-        light = right * x + up * scene.up + front * z / np.linalg.norm(z)
+        right, above, front = self.style.light
+        x = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.7 else np.array([0.0, 1.0, 0.0])
+        z = np.cross(x, up)
+        light = right * x + above * up + front * z / np.linalg.norm(z)
         return np.asarray(light / np.linalg.norm(light))
+
+    def _light_uniforms(self, up: NDArray[np.float64], view: Matrix) -> dict[str, object]:
+        return {
+            "eye": -np.linalg.solve(view[:3, :3], view[:3, 3]),
+            "up": up,
+            "light": self._light(up),
+            "key": (0.62, 0.6, 0.57),
+            "sky": (0.30, 0.32, 0.35),
+            "floor": (0.17, 0.16, 0.15),
+            "fill": (0.17, 0.17, 0.17),
+            "shadow_map": 1,
+        }
 
     def _draw_shadow(self, scene: Scene, batches: list[_Batch], light: NDArray[np.float64]) -> tuple[Matrix, float]:
         casters = [item for item in scene.items if not item.ground and item.rgba[3] > 0.5]
@@ -186,14 +218,16 @@ class SceneRenderer:
             features.append("CLOSED")
         if shadows:
             features.append("SHADOW")
-        key = tuple(features)
-        if key not in self._programs:
-            self._programs[key] = shaders.lit(*features)
-        program = self._programs[key]
+        program = self._program(*features)
         program.use()
         program.set(texture=0, **uniforms)
         _cull(bucket)
         GL.glPolygonMode(GL.GL_FRONT_AND_BACK, GL.GL_LINE if self.style.wireframe else GL.GL_FILL)
+
+    def _program(self, *features: str) -> Program:
+        if features not in self._programs:
+            self._programs[features] = shaders.lit(*features)
+        return self._programs[features]
 
     def _draw_batch(self, batch: _Batch) -> None:
         GL.glBindVertexArray(self._pools[batch.bucket.pool].vao)

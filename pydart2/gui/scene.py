@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from pydart2.gui import geometry
 from pydart2.gui.geometry import Mesh
 
 if TYPE_CHECKING:
+    from pydart2.joint import Joint
     from pydart2.shapenode import ShapeNode
     from pydart2.skeleton import Skeleton
     from pydart2.world import World
@@ -19,6 +21,31 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 NOBODY = (-1, -1)
+
+
+@dataclass
+class Show:
+    """What of a world is drawn.
+
+    Attributes
+    ----------
+    bodies, markers, contacts : bool
+        `contacts` with their forces.
+    collision_shapes : bool
+        What collides in place of what is to be seen.
+    forces : bool
+        External forces that were added "with arrow".
+    centers_of_mass, frames, joint_axes : bool
+    """
+
+    bodies: bool = True
+    markers: bool = True
+    contacts: bool = True
+    collision_shapes: bool = False
+    forces: bool = True
+    centers_of_mass: bool = False
+    frames: bool = False
+    joint_axes: bool = False
 
 
 class Item(NamedTuple):
@@ -90,25 +117,51 @@ class Scene:
         color[: len(np.atleast_1d(rgba))] = rgba
         self.items.append(Item(mesh, matrix, color, ids, ground, specular))
 
-    def add_world(self, world: World, *, markers: bool = True, contacts: bool = True) -> None:
-        """Add the skeletons of a world, with their markers and the contacts if wanted, and take its up."""
+    def add_world(self, world: World, show: Show | None = None) -> None:
+        """Add what is to be shown of a world, and take its up."""
+        show = show or Show()
         self.up = up_of(world)
         for skel in world.skeletons:
-            self.add_skeleton(skel)
-            if markers:
-                for marker in skel.markers:
-                    self.add_marker(marker.p, (skel.id, marker.bodynode.id))
-        if contacts:
+            if show.bodies:
+                self.add_skeleton(skel, collision_shapes=show.collision_shapes)
+            if show.markers:
+                self.add_markers(skel)
+            self._add_signs(skel, show)
+        if show.contacts:
             self.add_contacts(world.collision_result.rows)
 
-    def add_skeleton(self, skel: Skeleton, rgba: ArrayLike | None = None) -> None:
-        """Add the visible shapes of a skeleton, all in one colour if it is given."""
+    def add_skeleton(self, skel: Skeleton, rgba: ArrayLike | None = None, *, collision_shapes: bool = False) -> None:
+        """Add the visible shapes of a skeleton, or those that collide; all in one colour if it is given."""
         from pydart2.gui.shapes import add_shapenode
 
         for body in skel.bodynodes:
             for node in body.shapenodes:
-                if _is_drawn(node):
+                if collision_shapes:
+                    if node.shape is not None and node.has_collision_aspect():
+                        add_shapenode(self, node, _COLLISION if rgba is None else rgba)
+                elif _is_drawn(node):
                     add_shapenode(self, node, rgba)
+
+    def _add_signs(self, skel: Skeleton, show: Show) -> None:
+        size = _size_of_signs(skel)
+        if show.centers_of_mass and skel.bodynodes:
+            self.add(geometry.sphere(2), _at(skel.C), 0.25 * size, _CENTER)
+        for body in skel.bodynodes:
+            if show.frames:
+                self.add_frame(body.T, size)
+            if show.forces:
+                for point, force in body.force_arrows:
+                    self.add_arrow(point, point + _METRES_PER_NEWTON * force, 0.06 * size, _FORCE)
+        for joint in skel.joints if show.joint_axes else ():
+            if joint.num_dofs() == 1 and hasattr(joint, "axis_in_world_frame"):
+                middle = _place_of(joint)
+                reach = 0.7 * size * np.asarray(joint.axis_in_world_frame())
+                self.add_arrow(middle - reach, middle + reach, 0.04 * size, _AXIS)
+
+    def add_markers(self, skel: Skeleton) -> None:
+        """Add the markers of a skeleton."""
+        for marker in skel.markers:
+            self.add_marker(marker.p, (skel.id, marker.bodynode.id))
 
     def add_marker(self, position: Array, ids: tuple[int, int] = NOBODY, radius: float = 0.01) -> None:
         """Add a marker at a position (3,), m."""
@@ -156,12 +209,16 @@ class Scene:
 
 
 _FORCE = (0.9, 0.15, 0.15)
+_CENTER = (0.95, 0.75, 0.1)
+_AXIS = (0.95, 0.6, 0.1)
+_COLLISION = (0.35, 0.6, 0.85)
+_METRES_PER_NEWTON = 0.005
 
 
-def from_world(world: World, *, markers: bool = True, contacts: bool = True) -> Scene:
-    """All that is to be drawn of a world."""
+def from_world(world: World, show: Show | None = None) -> Scene:
+    """What is to be drawn of a world."""
     scene = Scene()
-    scene.add_world(world, markers=markers, contacts=contacts)
+    scene.add_world(world, show)
     return scene
 
 
@@ -194,6 +251,18 @@ def boxes(items: Iterable[Item]) -> Array:
     centre = np.einsum("nij,nj->ni", matrices[:, :3, :3], middle) + matrices[:, :3, 3]
     reach = np.einsum("nij,nj->ni", np.abs(matrices[:, :3, :3]), half)
     return np.stack([centre - reach, centre + reach], axis=1)
+
+
+def _size_of_signs(skel: Skeleton) -> float:
+    """A length in keeping with a skeleton's links, m: that of frames drawn at them."""
+    offsets = [body.T[:3, 3] for body in skel.bodynodes]
+    extent = float(np.ptp(offsets, axis=0).max()) if len(offsets) > 1 else 0.0
+    return float(np.clip(0.1 * extent, 0.05, 0.3)) if extent > 0.0 else 0.1
+
+
+def _place_of(joint: Joint) -> Array:
+    body = joint.child_bodynode
+    return (body.T @ joint.transform_from_child_body_node())[:3, 3]
 
 
 def _is_drawn(node: ShapeNode) -> bool:

@@ -83,13 +83,14 @@ void main() {
 }
 """
 
-# For what user code draws: the matrices and the colour of the fixed pipeline.
+# For what user code draws: OpenGL's own matrices and colour.
 _FIXED_MAIN = """
 uniform mat4 u_eye_to_world;
 void main() {
-    vec3 world = (u_eye_to_world * (gl_ModelViewMatrix * gl_Vertex)).xyz;
-    emit(world, mat3(u_eye_to_world) * (gl_NormalMatrix * gl_Normal), gl_Color, 0.2);
-    gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+    vec4 point = vec4(a_position, 1.0);
+    vec3 world = (u_eye_to_world * (gl_ModelViewMatrix * point)).xyz;
+    emit(world, mat3(u_eye_to_world) * (gl_NormalMatrix * a_normal), gl_Color, 0.2);
+    gl_Position = gl_ModelViewProjectionMatrix * point;
 }
 """
 
@@ -268,16 +269,13 @@ class Program:
 
 
 def lit(*features: str) -> Program:
-    """Draws instances of meshes. RICH has textures and vertex colours, GROUND a grid, CLOSED no back sides, SHADOW
-    shadows."""
-    defines = "".join(f"#define {feature}\n" for feature in features)
-    return Program(_HEAD + defines + _INSTANCE + _LIT_VERTEX + _WORLD_MAIN, _HEAD + defines + _LIT_FRAGMENT)
+    """Draws in the light of the scene: instances of meshes or, with FIXED, a mesh with OpenGL's own matrices and colour.
 
-
-def lit_fixed(*features: str) -> Program:
-    """Draws what user code gives to the fixed pipeline in the same light."""
-    defines = "".join(f"#define {feature}\n" for feature in features)
-    return Program(_HEAD + defines + _LIT_VERTEX + _FIXED_MAIN, _HEAD + defines + _LIT_FRAGMENT)
+    RICH has textures and vertex colours, GROUND a grid, CLOSED no back sides, SHADOW shadows.
+    """
+    head = _HEAD + "".join(f"#define {feature}\n" for feature in features)
+    main = _FIXED_MAIN if "FIXED" in features else _WORLD_MAIN
+    return Program(head + _INSTANCE + _LIT_VERTEX + main, head + _LIT_FRAGMENT)
 
 
 def shadow() -> Program:

@@ -28,11 +28,11 @@ _LINE_RADIUS = 0.0015  # m, of a line one pixel wide
 class _Drawing:
     """Adds what one shape node looks like to a scene."""
 
-    def __init__(self, scene: Scene, node: ShapeNode, rgba: ArrayLike | None) -> None:
+    def __init__(self, scene: Scene, node: ShapeNode, rgba: ArrayLike | None, pose: Array | None) -> None:
         self.scene = scene
         self.node = node
         self.shape = node._handle.shape()
-        self.pose = node._handle.world_transform()
+        self.pose = node._handle.world_transform() if pose is None else pose
         self.one_color = rgba
         self.rgba = node._handle.rgba() if rgba is None else np.asarray(rgba, dtype=float)
         self.ids = (node.skeleton.id, node.bodynode.id)
@@ -49,9 +49,9 @@ class _Drawing:
             self.add(mesh, size, pose=one, rgba=color)
 
 
-def add_shapenode(scene: Scene, node: ShapeNode, rgba: ArrayLike | None = None) -> None:
-    """Add the shape of a node that has one and is to be seen, in its own colour or in `rgba`."""
-    drawing = _Drawing(scene, node, rgba)
+def add_shapenode(scene: Scene, node: ShapeNode, rgba: ArrayLike | None = None, *, pose: Array | None = None) -> None:
+    """Add the shape of a node that has one, in its own colour or in `rgba`, where it is or at a pose (4, 4)."""
+    drawing = _Drawing(scene, node, rgba, pose)
     count = len(scene.items)
     kind = drawing.shape.type().split(" ")[0]  # "HeightmapShape (f)" tells its number type
     _KINDS.get(kind, _bounding_box)(drawing)

@@ -184,7 +184,9 @@ class Trackball:
             raise ValueError(f"a trackball's rot is a quaternion [x, y, z, w], not {list(quaternion)}")
         self._rotation = q / norm
         x, y, z, w = self._rotation
-        eye = np.eye(4, dtype=np.float32)  # the eye's axes in the world, column by column: the transpose turns the world
+        eye = np.eye(
+            4, dtype=np.float32
+        )  # the eye's axes in the world, column by column: the transpose turns the world
         eye[:3, :3] = [
             [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (z * x + y * w)],
             [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
