@@ -22,7 +22,7 @@ _KEEP_FRAMES = 200  # a mesh that was not drawn for so long may go
 class Part(NamedTuple):
     """Where a mesh is in the buffers of its pool."""
 
-    count: int
+    indices: int
     first_index: int
     base_vertex: int
 

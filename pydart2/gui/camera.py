@@ -50,7 +50,7 @@ class Camera:
     @property
     def pose(self) -> Matrix:
         """Of the eye in the world, shape (4, 4)."""
-        return np.linalg.inv(self.view)
+        return np.asarray(np.linalg.inv(self.view), dtype=float)
 
     @cached_property
     def position(self) -> NDArray[np.float64]:

@@ -63,9 +63,8 @@ def create_context() -> Context:
 
 def load_opengl() -> None:
     """Import PyOpenGL so that it works with a context of any origin, in a window or without one."""
-    if "OpenGL.platform" not in sys.modules:
-        if ctypes.util.find_library("GL") is None and "PYOPENGL_PLATFORM" not in os.environ:
-            os.environ["PYOPENGL_PLATFORM"] = "egl"
+    if "OpenGL.platform" not in sys.modules and ctypes.util.find_library("GL") is None:
+        os.environ.setdefault("PYOPENGL_PLATFORM", "egl")
     try:
         from OpenGL import platform
     except ImportError as error:

@@ -121,7 +121,7 @@ class OffscreenRenderer:
     def _render_rgb(self, world: Any, size: tuple[int, int], camera: Camera) -> NDArray[np.uint8]:
         from pydart2.gui.targets import ColorTarget
 
-        target = self._target(ColorTarget, *size, self.samples)
+        target: ColorTarget = self._target(ColorTarget, *size, self.samples)
         target.begin()
         self.scene.width, self.scene.height = size
         self.scene.render(world, camera)
@@ -131,7 +131,7 @@ class OffscreenRenderer:
         from pydart2.gui import drawing
         from pydart2.gui.targets import BodiesTarget
 
-        target = self._target(BodiesTarget, *size)
+        target: BodiesTarget = self._target(BodiesTarget, *size)
         target.begin()
         show = scenes.Show(markers=False, contacts=False, forces=False)
         scene = scenes.from_world(world, show)

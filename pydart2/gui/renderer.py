@@ -58,8 +58,8 @@ class _Bucket(NamedTuple):
 
 class _Batch(NamedTuple):
     bucket: _Bucket
-    first: int  # command
-    count: int
+    first: int
+    commands: int
 
 
 class SceneRenderer:
@@ -115,7 +115,7 @@ class SceneRenderer:
         """Draw a scene into the framebuffer and viewport that are set, through matrices (4, 4)."""
         if not scene.items:
             return
-        batches, blended = self._prepare(scene, -np.linalg.solve(view[:3, :3], view[:3, 3]))
+        batches, blended = self._prepare(scene, _eye(view))
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthFunc(GL.GL_LESS)
         GL.glDisable(GL.GL_BLEND)
@@ -166,7 +166,7 @@ class SceneRenderer:
             GL.glBindTexture(GL.GL_TEXTURE_2D, self._shadow.texture)
         GL.glBindVertexArray(self._pools[0].vao)
         start = ctypes.c_void_p(4 * part.first_index)
-        GL.glDrawElementsBaseVertex(GL.GL_TRIANGLES, part.count, GL.GL_UNSIGNED_INT, start, part.base_vertex)
+        GL.glDrawElementsBaseVertex(GL.GL_TRIANGLES, part.indices, GL.GL_UNSIGNED_INT, start, part.base_vertex)
         _leave()
 
     def _light(self, up: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -179,7 +179,7 @@ class SceneRenderer:
 
     def _light_uniforms(self, up: NDArray[np.float64], view: Matrix) -> dict[str, object]:
         return {
-            "eye": -np.linalg.solve(view[:3, :3], view[:3, 3]),
+            "eye": _eye(view),
             "up": up,
             "light": self._light(up),
             "key": (0.62, 0.6, 0.57),
@@ -232,7 +232,7 @@ class SceneRenderer:
     def _draw_batch(self, batch: _Batch) -> None:
         GL.glBindVertexArray(self._pools[batch.bucket.pool].vao)
         start = ctypes.c_void_p(_COMMAND_BYTES * batch.first)
-        GL.glMultiDrawElementsIndirect(GL.GL_TRIANGLES, GL.GL_UNSIGNED_INT, start, batch.count, 0)
+        GL.glMultiDrawElementsIndirect(GL.GL_TRIANGLES, GL.GL_UNSIGNED_INT, start, batch.commands, 0)
 
     def _prepare(self, scene: Scene, eye: NDArray[np.float64]) -> tuple[list[_Batch], list[_Batch]]:
         """Put the scene into the buffers; the batches of what is opaque and, from far to near, of what is not."""
@@ -274,7 +274,7 @@ class SceneRenderer:
 
     def _command(self, bucket: _Bucket, mesh: Mesh, count: int, first: int) -> tuple[int, ...]:
         part = self._pools[bucket.pool].part(mesh)
-        return part.count, count, part.first_index, part.base_vertex, first
+        return part.indices, count, part.first_index, part.base_vertex, first
 
     def _upload(self, commands: NDArray[np.uint32], items: list[Item]) -> None:
         rows = np.empty((len(items), INSTANCE_FLOATS), np.float32)
@@ -325,6 +325,11 @@ def _cull(bucket: _Bucket) -> None:
         GL.glEnable(GL.GL_CULL_FACE)
     else:
         GL.glDisable(GL.GL_CULL_FACE)
+
+
+def _eye(view: Matrix) -> NDArray[np.float64]:
+    """Where the eye is in the world, (3,)."""
+    return np.asarray(-np.linalg.solve(view[:3, :3], view[:3, 3]), dtype=float)
 
 
 def _leave() -> None:

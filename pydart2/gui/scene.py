@@ -112,7 +112,7 @@ class Scene:
     ) -> None:
         """Add a mesh: pose in the world (4, 4), factors along the mesh's axes (3,) or one, colour."""
         matrix = transform.copy()
-        matrix[:, :3] *= scale
+        matrix[:, :3] *= np.asarray(scale, dtype=float)
         color = np.ones(4)
         color[: len(np.atleast_1d(rgba))] = rgba
         self.items.append(Item(mesh, matrix, color, ids, ground, specular))

@@ -251,7 +251,7 @@ class Program:
         return self._places[name]
 
     def set(self, **uniforms: Any) -> None:
-        """Set uniforms of the current program: floats, vectors (3,) or (4,), matrices (4, 4); ints are texture units."""
+        """Set uniforms of the current program: floats, vectors (3,), (4,), matrices (4, 4); ints are texture units."""
         for name, value in uniforms.items():
             place = self.place(f"u_{name}")
             if place < 0:
@@ -269,7 +269,7 @@ class Program:
 
 
 def lit(*features: str) -> Program:
-    """Draws in the light of the scene: instances of meshes or, with FIXED, a mesh with OpenGL's own matrices and colour.
+    """Draws in light: instances of meshes or, with FIXED, a mesh with OpenGL's own matrices and colour.
 
     RICH has textures and vertex colours, GROUND a grid, CLOSED no back sides, SHADOW shadows.
     """

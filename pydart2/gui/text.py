@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import unicodedata
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -10,7 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-_CHARACTERS = "".join(map(chr, [*range(32, 127), *range(160, 256)]))
+# What Pillow's own font has, and what is shown in place of what is often wanted beside it.
+_CHARACTERS = "".join(map(chr, range(32, 127)))
+_INSTEAD = str.maketrans(dict(zip("–—‘’“”•×μ", "--''\"\"*xu")) | {"°": " deg", "…": "...", "²": "^2", "³": "^3"})
 _COLUMNS = 16
 _SIZES = {
     "GLUT_BITMAP_9_BY_15": 15,
@@ -52,13 +55,15 @@ class Atlas:
     ascent: int
     glyphs: dict[str, Glyph]
 
-    def glyph(self, letter: str) -> Glyph:
-        """Of a letter, or a question mark if it is not among those of Latin-1."""
-        return self.glyphs.get(letter, self.glyphs["?"])
-
     def width(self, text: str) -> float:
         """Of a line of text, pixels."""
-        return sum(self.glyph(letter).advance for letter in text)
+        return sum(self.glyphs[letter].advance for letter in plain(text))
+
+
+def plain(line: str) -> str:
+    """A line in the letters of the font: accents are left out, what is not known becomes a question mark."""
+    letters = unicodedata.normalize("NFKD", line.translate(_INSTEAD)).translate(_INSTEAD)
+    return "".join(c if c in _CHARACTERS else "?" for c in letters if not unicodedata.combining(c))
 
 
 @lru_cache(maxsize=16)

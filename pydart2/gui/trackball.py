@@ -12,7 +12,7 @@ _ZOOM, _DISTANCE = (0.25, 10.0), 1.0
 
 
 class Trackball:
-    """Where the camera is: the world is turned by `matrix`, then moved by `trans`, in front of an eye that looks along -z.
+    """Where the camera is: the world is turned by `matrix`, then moved by `trans`; the eye is at 0 and looks along -z.
 
     >>> tb = Trackball(rot=[-0.152, 0.045, -0.002, 0.987], trans=[0.05, 0.21, -2.5])
     >>> tb.trans[2] = -5.0  # further away
@@ -109,7 +109,7 @@ class Trackball:
         self._set_phi(phi)
 
     def drag_to(self, x: float, y: float, dx: float, dy: float) -> None:
-        """Turn the ball: the mouse came to (x, y) by a way of (dx, dy), pixels from the lower left corner, y upwards."""
+        """Turn the ball: the mouse came to (x, y) by (dx, dy), pixels from the lower left corner, y upwards."""
         half = np.array(self.viewport) / 2.0
         end = np.array([x, y]) / half - 1.0
         start = end - np.array([dx, dy]) / half

@@ -125,7 +125,7 @@ class FlatRenderer:
         back = (start - end) / length * head_len
         for angle in (head_angle * np.pi, -head_angle * np.pi):
             cos, sin = np.cos(angle), np.sin(angle)
-            self.draw_line(end, end + [cos * back[0] - sin * back[1], sin * back[0] + cos * back[1]])
+            self.draw_line(end, end + np.array([cos * back[0] - sin * back[1], sin * back[0] + cos * back[1]]))
 
     def draw_box(
         self, sx: float, sy: float, center: ArrayLike | None = None, angle: float | None = None, fill: bool = False
@@ -265,8 +265,8 @@ def _draw_text(letters: dict[int, int], x: float, y: float, depth: float, line: 
         GL.glBindTexture(GL.GL_TEXTURE_2D, letters[size])
         GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_MIN_FILTER, GL.GL_NEAREST)
         GL.glBegin(GL.GL_QUADS)
-        for letter in line:
-            glyph = atlas.glyph(letter)
+        for letter in text.plain(line):
+            glyph = atlas.glyphs[letter]
             left, top = round(x) - 1, round(y) - atlas.ascent
             for dx, dy in ((0, 0), (w, 0), (w, h), (0, h)):
                 GL.glTexCoord2d((glyph.x + dx) / width, (glyph.y + dy) / height)
@@ -281,7 +281,8 @@ def _pixels() -> Iterator[None]:
     """Draw textures in the current colour, in pixels of the viewport from its upper left corner; all state as before
     afterwards."""
     _, _, width, height = GL.glGetIntegerv(GL.GL_VIEWPORT)
-    GL.glPushAttrib(GL.GL_ENABLE_BIT | GL.GL_TEXTURE_BIT | GL.GL_TRANSFORM_BIT)
+    GL.glPushAttrib(GL.GL_ENABLE_BIT | GL.GL_TEXTURE_BIT | GL.GL_TRANSFORM_BIT | GL.GL_DEPTH_BUFFER_BIT)
+    GL.glDepthMask(False)  # letters overlap
     GL.glUseProgram(0)
     GL.glDisable(GL.GL_LIGHTING)
     GL.glEnable(GL.GL_BLEND)

@@ -105,8 +105,8 @@ class Renderer(FlatRenderer):
 
     def render_cylinder(self, pos: ArrayLike, r: float, h: float, num_seg1: int = 20, num_seg2: int = 10) -> None:
         """Draw a cylinder from `pos` along z. The numbers of segments are of no effect."""
-        start = np.asarray(pos, dtype=float)
-        self._solid(geometry.cylinder(), _at(start + [0.0, 0.0, h / 2.0]), (r, r, h))
+        middle = np.asarray(pos, dtype=float) + np.array([0.0, 0.0, h / 2.0])
+        self._solid(geometry.cylinder(), _at(middle), (r, r, h))
 
     def render_cylinder_two_points(self, p0: ArrayLike, p1: ArrayLike, radius: float) -> None:
         """Draw a cylinder from one point to another; nothing if they are the same."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -65,17 +67,16 @@ class OpenGLScene:
         self._begin(sim, camera or Camera(self.tb.view))
         if sim is None:
             return
-        if hasattr(sim, "render"):
-            sim.render()
-        if hasattr(sim, "render_with_ri"):
-            self._set_up_fixed_pipeline()
-            sim.render_with_ri(self.renderer)
+        with _undone():
+            if hasattr(sim, "render"):
+                sim.render()
+            if hasattr(sim, "render_with_ri"):
+                self._set_up_fixed_pipeline()
+                sim.render_with_ri(self.renderer)
         if hasattr(sim, "draw_with_ri"):
-            self.enable2D()
-            try:
+            with _undone():
+                self.enable2D()
                 sim.draw_with_ri(self.renderer)
-            finally:
-                self.disable2D()
 
     def _begin(self, sim: Any, camera: Camera) -> None:
         renderer = drawing.renderer()
@@ -158,3 +159,22 @@ class OpenGLScene:
             GL.glLightfv(light, GL.GL_POSITION, direction)
             GL.glLightfv(light, GL.GL_DIFFUSE, (0.7, 0.7, 0.7, 1.0))
             GL.glEnable(light)
+
+
+@contextmanager
+def _undone() -> Iterator[None]:
+    """Afterwards OpenGL's state is as it was, also if user code raised or forgot a pop()."""
+    stacks = (
+        (GL.GL_PROJECTION, GL.GL_PROJECTION_STACK_DEPTH),
+        (GL.GL_MODELVIEW, GL.GL_MODELVIEW_STACK_DEPTH),
+    )
+    depths = [GL.glGetIntegerv(depth) for _, depth in stacks]
+    GL.glPushAttrib(GL.GL_ALL_ATTRIB_BITS)
+    try:
+        yield
+    finally:
+        GL.glPopAttrib()
+        for (mode, depth), before in zip(stacks, depths):
+            GL.glMatrixMode(mode)
+            for _ in range(GL.glGetIntegerv(depth) - before):
+                GL.glPopMatrix()
