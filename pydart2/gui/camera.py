@@ -47,6 +47,17 @@ class Camera:
         view[:3, 3] = -view[:3, :3] @ position
         return cls(view, fov)
 
+    @classmethod
+    def around(
+        cls, low: ArrayLike, high: ArrayLike, direction: ArrayLike, up: ArrayLike, fov: float = np.pi / 6.0
+    ) -> Camera:
+        """A camera that sees the box between two corners (3,), m, from a direction (3,), in a square picture."""
+        corners = np.array([low, high], dtype=float)
+        back = np.asarray(direction, dtype=float) / np.linalg.norm(direction)
+        radius = float(np.linalg.norm(corners[1] - corners[0])) / 2.0
+        middle = corners.mean(axis=0)
+        return cls.look_at(middle + back * max(radius, 1e-3) / np.sin(fov / 2.0), middle, up, fov)
+
     @property
     def pose(self) -> Matrix:
         """Of the eye in the world, shape (4, 4)."""

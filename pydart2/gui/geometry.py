@@ -84,6 +84,40 @@ def smooth_normals(vertices: NDArray[np.floating], triangles: NDArray[np.integer
     return _unit(normals)
 
 
+def split_at_edges(
+    vertices: ArrayLike, triangles: ArrayLike, angle: float = np.radians(40.0)
+) -> tuple[NDArray[np.intp], NDArray[np.uint32]]:
+    """Double the vertices at sharp edges, so that smooth normals keep them sharp.
+
+    Returns
+    -------
+    sources : (k,)
+        The vertex that each of the new ones is a copy of.
+    triangles : (m, 3)
+        With the new vertices.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    points, faces = np.asarray(vertices, dtype=float), np.asarray(triangles)
+    normals = flat(points, faces).normals[::3].astype(float)
+    starts, ends = faces.reshape(-1), np.roll(faces, -1, axis=1).reshape(-1)
+    edges = np.sort(np.stack([starts, ends], axis=1), axis=1)
+    order = np.lexsort(edges.T)
+    same = np.flatnonzero((edges[order[1:]] == edges[order[:-1]]).all(axis=1))
+    a, b = order[same], order[same + 1]  # both sides of each edge, as corners where they start
+    smooth = np.einsum("ij,ij->i", normals[a // 3], normals[b // 3]) > np.cos(angle)
+    a, b = a[smooth], b[smooth]
+    # The corner where one side starts is that where the other ends, and the other way round.
+    next_a, next_b = a // 3 * 3 + (a + 1) % 3, b // 3 * 3 + (b + 1) % 3
+    links = np.concatenate([a, next_a]), np.concatenate([next_b, b])
+    graph = coo_array((np.ones(len(links[0])), links), shape=(faces.size, faces.size))
+    count, group = connected_components(graph, directed=False)
+    sources = np.empty(count, np.intp)
+    sources[group] = starts
+    return sources, group.reshape(-1, 3).astype(np.uint32)
+
+
 def flat(vertices: ArrayLike, triangles: ArrayLike) -> Mesh:
     """A mesh whose triangles are shaded flat."""
     corners = np.asarray(vertices, dtype=float)[np.asarray(triangles)]

@@ -39,7 +39,7 @@ class OffscreenRenderer:
     width, height
         Pixels of the pictures, if `render` is not told others.
     samples
-        Per pixel of "rgb" pictures, for smooth edges: 0, 2, 4 or 8.
+        Per pixel of "rgb" pictures, for smooth edges: 0, 2 or 4; some graphics cards have more.
 
     Attributes
     ----------

@@ -52,6 +52,7 @@ class _Bucket(NamedTuple):
 
     pool: int
     ground: bool
+    grid: bool
     closed: bool
     texture: str | None
 
@@ -212,8 +213,8 @@ class SceneRenderer:
             features.append("RICH")
             GL.glActiveTexture(GL.GL_TEXTURE0)
             GL.glBindTexture(GL.GL_TEXTURE_2D, self._textures[bucket.texture])
-        if bucket.ground:
-            features.append("GROUND")
+        if bucket.grid:
+            features.append("GRID")
         if bucket.closed:
             features.append("CLOSED")
         if shadows:
@@ -239,8 +240,10 @@ class SceneRenderer:
         self._frame += 1
         buckets: dict[_Bucket, dict[Mesh, list[Item]]] = {}
         see_through: list[tuple[float, _Bucket, Item]] = []
-        for item in scene.items:
-            bucket = _bucket(item)
+        matrices = np.array([item.transform for item in scene.items])
+        mirrored = np.linalg.det(matrices[:, :3, :3]) < 0.0
+        for item, turned in zip(scene.items, mirrored):
+            bucket = _bucket(item, bool(turned))
             if item.rgba[3] < 1.0:
                 see_through.append((float(np.sum((item.transform[:3, 3] - eye) ** 2)), bucket, item))
             else:
@@ -282,7 +285,7 @@ class SceneRenderer:
         rows[:, 12:16] = np.array([item.rgba for item in items])
         rows[:, 16] = [item.specular for item in items]
         rows[:, 17:19] = [item.ids for item in items]
-        rows[:, 19] = [_cell(item) if item.ground else 0.0 for item in items]
+        rows[:, 19] = [item.grid for item in items]
         GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self._instances)
         GL.glBufferData(GL.GL_ARRAY_BUFFER, rows.nbytes, rows, GL.GL_STREAM_DRAW)
         GL.glBindBuffer(GL.GL_ARRAY_BUFFER, 0)
@@ -307,17 +310,9 @@ def _pool(mesh: Mesh) -> int:
     return 0 if mesh.is_lasting else 2
 
 
-def _bucket(item: Item) -> _Bucket:
+def _bucket(item: Item, mirrored: bool) -> _Bucket:
     mesh = item.mesh
-    mirrored = np.linalg.det(item.transform[:3, :3]) < 0.0
-    return _Bucket(_pool(mesh), item.ground, mesh.is_closed and not mirrored, mesh.texture)
-
-
-def _cell(item: Item) -> float:
-    """Edge of the cells of a floor's grid, m."""
-    low, high = item.mesh.bounds
-    size = float(np.sort(np.abs(item.transform[:3, :3] @ (high - low)))[1])
-    return 1.0 if size >= 8.0 else 0.5 if size >= 4.0 else 0.25
+    return _Bucket(_pool(mesh), item.ground, item.grid > 0.0, mesh.is_closed and not mirrored, mesh.texture)
 
 
 def _cull(bucket: _Bucket) -> None:

@@ -62,9 +62,11 @@ class Item(NamedTuple):
     ids : (skeleton id, body id)
         -1 for what belongs to no body.
     ground : bool
-        Whether it is a floor, which gets a grid and throws no shadow.
+        Whether it is a floor, which throws no shadow.
     specular : float
         Strength of highlights, 0 to 1.
+    grid : float
+        Edge of the cells of the grid on top of a floor, m; 0 for none.
     """
 
     mesh: Mesh
@@ -73,6 +75,7 @@ class Item(NamedTuple):
     ids: tuple[int, int] = NOBODY
     ground: bool = False
     specular: float = 0.2
+    grid: float = 0.0
 
 
 class Scene:
@@ -109,13 +112,14 @@ class Scene:
         *,
         ground: bool = False,
         specular: float = 0.2,
+        grid: float = 0.0,
     ) -> None:
         """Add a mesh: pose in the world (4, 4), factors along the mesh's axes (3,) or one, colour."""
         matrix = transform.copy()
         matrix[:, :3] *= np.asarray(scale, dtype=float)
         color = np.ones(4)
         color[: len(np.atleast_1d(rgba))] = rgba
-        self.items.append(Item(mesh, matrix, color, ids, ground, specular))
+        self.items.append(Item(mesh, matrix, color, ids, ground, specular, grid))
 
     def add_world(self, world: World, show: Show | None = None) -> None:
         """Add what is to be shown of a world, and take its up."""
@@ -205,7 +209,8 @@ class Scene:
 
     def add_ground(self, height: float = 0.0, size: float = 20.0, rgba: ArrayLike = (0.86, 0.88, 0.9)) -> None:
         """Add a square floor with a grid at a height over the origin, m."""
-        self.add(geometry.quad(), between(height * self.up, (height + 1.0) * self.up, 0.0), size, rgba, ground=True)
+        pose = between(height * self.up, (height + 1.0) * self.up, 0.0)
+        self.add(geometry.quad(), pose, size, rgba, ground=True, specular=0.0, grid=grid_of(size))
 
 
 _FORCE = (0.9, 0.15, 0.15)
@@ -227,6 +232,11 @@ def up_of(world: World) -> Array:
     gravity = world.gravity()
     length = float(np.linalg.norm(gravity))
     return -gravity / length if length > 0.0 else np.array([0.0, 1.0, 0.0])
+
+
+def grid_of(width: float) -> float:
+    """Edge of the cells on a floor so wide, m."""
+    return 1.0 if width >= 8.0 else 0.5 if width >= 4.0 else 0.25
 
 
 def between(start: Array, end: Array, part: float = 0.5) -> Array:

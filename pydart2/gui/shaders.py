@@ -10,7 +10,7 @@ from pydart2.gui.context import ContextError
 
 #: Attribute locations, the same in all programs.
 POSITION, NORMAL, COORDINATES, COLOR = 0, 1, 2, 3
-INSTANCE = 4  # three rows of the transform, colour, [specular, skeleton id, body id]
+INSTANCE = 4  # three rows of the transform, colour, [specular, skeleton id, body id, grid]
 
 _HEAD = "#version 330 compatibility\n"
 
@@ -53,7 +53,7 @@ flat out float v_specular;
 out vec2 v_coordinates;
 out vec4 v_tint;
 #endif
-#ifdef GROUND
+#ifdef GRID
 out vec3 v_world;
 flat out float v_cell;
 #endif
@@ -76,7 +76,7 @@ void main() {
     v_coordinates = a_coordinates;
     v_tint = a_color * a_color;
 #endif
-#ifdef GROUND
+#ifdef GRID
     v_world = world;
     v_cell = i_extra.w;
 #endif
@@ -113,10 +113,9 @@ uniform sampler2D u_texture;
 in vec2 v_coordinates;
 in vec4 v_tint;
 #endif
-#ifdef GROUND
+#ifdef GRID
 in vec3 v_world;
 flat in float v_cell;
-uniform vec3 u_fade;         // colour, start and length of the fading
 #endif
 layout(location = 0) out vec4 color;
 
@@ -133,9 +132,9 @@ float lit_part() {
 #endif
 }
 
-#ifdef GROUND
+#ifdef GRID
 // A chessboard of cells, and the mean of its colours where cells are smaller than pixels.
-vec3 ground(vec3 albedo) {
+vec3 grid(vec3 albedo) {
     vec3 east = abs(u_up.y) > 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
     vec3 right = normalize(cross(u_up, east));
     vec2 p = vec2(dot(v_world, right), dot(v_world, cross(right, u_up))) / v_cell;
@@ -157,8 +156,8 @@ void main() {
     albedo *= v_tint.rgb * texel.rgb * texel.rgb;
     alpha *= v_tint.a * texel.a;
 #endif
-#ifdef GROUND
-    albedo = ground(albedo);
+#ifdef GRID
+    if (dot(v_normal, u_up) > 0.7 * length(v_normal)) albedo = grid(albedo);
 #endif
     vec3 normal = normalize(v_normal);
     vec3 to_eye = normalize(v_to_eye);
@@ -271,7 +270,7 @@ class Program:
 def lit(*features: str) -> Program:
     """Draws in light: instances of meshes or, with FIXED, a mesh with OpenGL's own matrices and colour.
 
-    RICH has textures and vertex colours, GROUND a grid, CLOSED no back sides, SHADOW shadows.
+    RICH has textures and vertex colours, GRID a grid on top, CLOSED no back sides, SHADOW shadows.
     """
     head = _HEAD + "".join(f"#define {feature}\n" for feature in features)
     main = _FIXED_MAIN if "FIXED" in features else _WORLD_MAIN

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2.gui import geometry
 from pydart2.gui.geometry import Mesh
-from pydart2.gui.scene import Scene, boxes
+from pydart2.gui.scene import Scene, between, boxes, grid_of
 from pydart2.softbody import SoftBodyNode
 
 if TYPE_CHECKING:
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 _PLANE_SIZE = 100.0  # m, of what is drawn of an endless plane
 _LINE_RADIUS = 0.0015  # m, of a line one pixel wide
+_NO_COLOR = np.array([0.5, 0.5, 1.0])  # what the engine gives to shapes whose file gives no colour ...
+_PLEASANT = np.array([0.42, 0.56, 0.76])  # ... and what they are drawn in
 
 
 class _Drawing:
@@ -34,7 +36,7 @@ class _Drawing:
         self.shape = node._handle.shape()
         self.pose = node._handle.world_transform() if pose is None else pose
         self.one_color = rgba
-        self.rgba = node._handle.rgba() if rgba is None else np.asarray(rgba, dtype=float)
+        self.rgba = _color_of(node) if rgba is None else np.asarray(rgba, dtype=float)
         self.ids = (node.skeleton.id, node.bodynode.id)
 
     def add(self, mesh: Mesh, scale: ArrayLike = 1.0, **rest: Any) -> None:
@@ -49,25 +51,32 @@ class _Drawing:
             self.add(mesh, size, pose=one, rgba=color)
 
 
+def _color_of(node: ShapeNode) -> Array:
+    rgba = node._handle.rgba()
+    if np.array_equal(rgba[:3], _NO_COLOR):
+        rgba[:3] = _PLEASANT
+    return rgba
+
+
 def add_shapenode(scene: Scene, node: ShapeNode, rgba: ArrayLike | None = None, *, pose: Array | None = None) -> None:
     """Add the shape of a node that has one, in its own colour or in `rgba`, where it is or at a pose (4, 4)."""
     drawing = _Drawing(scene, node, rgba, pose)
     count = len(scene.items)
     kind = drawing.shape.type().split(" ")[0]  # "HeightmapShape (f)" tells its number type
     _KINDS.get(kind, _bounding_box)(drawing)
-    if not node.bodynode._handle.num_dependent_dofs():
-        _mark_grounds(scene, count)
+    if not node.bodynode._handle.num_dependent_dofs() or not node.skeleton.is_mobile():
+        _mark_floors(scene, count)
 
 
-def _mark_grounds(scene: Scene, first: int) -> None:
-    """What cannot move, is wide and is flat is a floor."""
+def _mark_floors(scene: Scene, first: int) -> None:
+    """What cannot move, is wide and is flat is a floor; it gets a grid if it has no detail of its own."""
     for i, item in enumerate(scene.items[first:], first):
         low, high = boxes([item])[0]
         extent = high - low
-        height = float(extent @ np.abs(scene.up))
         width = float(np.sort(extent)[1])
-        if width > 1.5 and height < 0.1 * width:
-            scene.items[i] = item._replace(ground=True)
+        if width > 1.5 and float(extent @ np.abs(scene.up)) < 0.1 * width:
+            grid = grid_of(width) if item.mesh in (geometry.box(), geometry.quad()) else 0.0
+            scene.items[i] = item._replace(ground=True, specular=0.0, grid=grid)
 
 
 def _sphere(d: _Drawing) -> None:
@@ -102,8 +111,6 @@ def _pyramid(d: _Drawing) -> None:
 
 
 def _plane(d: _Drawing) -> None:
-    from pydart2.gui.scene import between
-
     normal = d.shape.normal()
     start = d.shape.offset() * normal
     d.add(geometry.quad(), _PLANE_SIZE, pose=d.pose @ between(start, start + normal, 0.0))
@@ -125,8 +132,9 @@ def _mesh(d: _Drawing) -> None:
 def _soft_mesh(d: _Drawing) -> None:
     body = d.node.bodynode
     if isinstance(body, SoftBodyNode):
-        faces = _kept(("faces", d.shape.id()), body.faces)
-        d.add(geometry.mesh(body.point_local_positions(), faces, is_lasting=False), pose=body.T)
+        rest = _kept(("skin", d.shape.id()), lambda: geometry.split_at_edges(body.point_rest_positions(), body.faces()))
+        sources, triangles = rest
+        d.add(geometry.mesh(body.point_local_positions()[sources], triangles, is_lasting=False), pose=body.T)
 
 
 def _line_segments(d: _Drawing) -> None:

@@ -13,6 +13,8 @@ class _Framebuffer:
     """A framebuffer object with renderbuffers of these formats, and depth."""
 
     def __init__(self, width: int, height: int, samples: int, *formats: int) -> None:
+        if samples > (most := int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES))):
+            raise ContextError(f"this OpenGL draws at most {most} samples a pixel, not {samples}")
         self.name = int(GL.glGenFramebuffers(1))
         self._buffers: list[int] = []
         self.bind()
