@@ -6,7 +6,7 @@
 0.0
 
 `flat_table` lists them. A result of variable length takes its length as the last argument; `out` is filled in place.
-What cannot be done raises. Drawing (`*__render*`) is in `pydart2.gui`.
+What cannot be done raises. Drawing (`*__render*`) is in `flat_drawing`.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ from pydart2._native import (
     WorldHandle,
     restart,
 )
+from pydart2.flat_drawing import FUNCTIONS as DRAWING
 from pydart2.flat_table import ROWS, Row
 from pydart2.manager import set_verbose as _set_verbose  # noqa: F401 (named in the table)
 from pydart2.manager import verbose as _verbose  # noqa: F401
@@ -277,4 +278,8 @@ def _sized(name: str, call: Callable[..., NDArray[np.float64]]) -> Callable[...,
 
 
 #: What `pydart2_api` offers besides its handle classes.
-MEMBERS: dict[str, Any] = {"IntVector": IntVector, **{row.name: _function(row) for row in ROWS}}
+MEMBERS: dict[str, Any] = {
+    "IntVector": IntVector,
+    **{row.name: _function(row) for row in ROWS},
+    **{function.__name__: function for function in DRAWING},
+}

@@ -1,6 +1,6 @@
 """Draws every model of data/ from three sides: python tools/make_model_pictures.py [FOLDER].
 
-Makes one PNG a model, by default in docs/images/models: from the front at the left, from the side, and from behind above.
+Makes one PNG a model, by default in docs/images/models: from the front, from the side, and from behind above.
 """
 
 from __future__ import annotations
@@ -14,11 +14,10 @@ from PIL import Image
 
 import pydart2
 from pydart2.gui import Camera, OffscreenRenderer, drawing
-from pydart2.gui.scene import Scene, boxes, from_world
+from pydart2.gui.scene import boxes, from_world
 
 ROOT = Path(__file__).resolve().parent.parent
 SIZE, SMOOTH = 400, 2  # pixels of a picture, and how many of a drawing make one of them
-Z_UP, Y_UP = (0.0, 0.0, -9.81), (0.0, -9.81, 0.0)
 
 
 class OnFloor:
@@ -26,8 +25,8 @@ class OnFloor:
 
     def __init__(self, world: pydart2.World) -> None:
         self.scene = from_world(world)
-        self.low, self.high = bounds([item for item in self.scene if not item.ground] or self.scene.items)
-        if not any(item.ground for item in self.scene):
+        self.low, self.high = bounds([item for item in self.scene if item.casts] or self.scene.items)
+        if all(item.casts for item in self.scene):
             self.scene.add_ground(float(self.low @ np.abs(self.scene.up)), 30.0)
 
     def render(self) -> None:
@@ -45,7 +44,7 @@ def worlds() -> dict[str, pydart2.World]:
     made = {path.stem: pydart2.World(0.001, path) for path in sorted((ROOT / "data" / "skel").glob("*.skel"))}
     for name, path in (("atlas", "sdf/atlas/atlas_v3_no_head.sdf"), ("pr2", "urdf/PR2/pr2.urdf")):
         made[name] = pydart2.World(0.001)
-        made[name].set_gravity(Z_UP)
+        made[name].set_gravity([0.0, 0.0, -9.81])
         made[name].add_skeleton(ROOT / "data" / path)
     chain = made["chain"].skeletons[-1]
     chain.q = np.linspace(0.5, -0.1, chain.ndofs) * 0.6
@@ -56,7 +55,7 @@ def three_sides(renderer: OffscreenRenderer, world: pydart2.World) -> Image.Imag
     """The pictures side by side."""
     model = OnFloor(world)
     up = model.scene.up
-    front = np.array([1.0, 0.0, 0.0]) if up[2] > 0.5 or world.num_skeletons() == 0 else np.array([0.0, 0.0, 1.0])
+    front = np.array([1.0, 0.0, 0.0])
     side = np.cross(up, front)
     directions = (front + 0.25 * up + 0.25 * side, side + 0.2 * up, 0.55 * up - front - 0.6 * side)
     sheet = Image.new("RGB", (3 * SIZE, SIZE))

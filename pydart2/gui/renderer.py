@@ -51,7 +51,7 @@ class _Bucket(NamedTuple):
     """What can be drawn with one program and one set of buffers."""
 
     pool: int
-    ground: bool
+    casts: bool
     grid: bool
     closed: bool
     texture: str | None
@@ -191,7 +191,7 @@ class SceneRenderer:
         }
 
     def _draw_shadow(self, scene: Scene, batches: list[_Batch], light: NDArray[np.float64]) -> tuple[Matrix, float]:
-        casters = [item for item in scene.items if not item.ground and item.rgba[3] > 0.5]
+        casters = [item for item in scene.items if item.casts and item.rgba[3] > 0.5]
         if not self.style.shadows or not casters:
             return np.eye(4), 0.0
         if self._shadow is None or self._shadow.size != self.style.shadow_size:
@@ -199,7 +199,7 @@ class SceneRenderer:
         matrix, texel = self._shadow.fit(casters, light)
         before = self._shadow.begin(matrix)
         for batch in batches:
-            if not batch.bucket.ground:
+            if batch.bucket.casts:
                 _cull(batch.bucket)
                 self._draw_batch(batch)
         self._shadow.end(before)
@@ -312,7 +312,7 @@ def _pool(mesh: Mesh) -> int:
 
 def _bucket(item: Item, mirrored: bool) -> _Bucket:
     mesh = item.mesh
-    return _Bucket(_pool(mesh), item.ground, item.grid > 0.0, mesh.is_closed and not mirrored, mesh.texture)
+    return _Bucket(_pool(mesh), item.casts, item.grid > 0.0, mesh.is_closed and not mirrored, mesh.texture)
 
 
 def _cull(bucket: _Bucket) -> None:

@@ -22,6 +22,14 @@ Array = NDArray[np.float64]
 
 NOBODY = (-1, -1)
 
+_MARKER = (0.95, 0.35, 0.15)
+_FORCE = (0.9, 0.15, 0.15)
+_CENTER = (0.95, 0.75, 0.1)
+_AXIS = (0.95, 0.6, 0.1)
+_FLOOR = (0.86, 0.88, 0.9)
+_COLLISION = (0.35, 0.6, 0.85)
+_METRES_PER_NEWTON = 0.005
+
 
 @dataclass
 class Show:
@@ -61,8 +69,8 @@ class Item(NamedTuple):
         0 to 1, the alpha too.
     ids : (skeleton id, body id)
         -1 for what belongs to no body.
-    ground : bool
-        Whether it is a floor, which throws no shadow.
+    casts : bool
+        Whether it throws a shadow; floors and signs do not.
     specular : float
         Strength of highlights, 0 to 1.
     grid : float
@@ -73,7 +81,7 @@ class Item(NamedTuple):
     transform: Array
     rgba: Array
     ids: tuple[int, int] = NOBODY
-    ground: bool = False
+    casts: bool = True
     specular: float = 0.2
     grid: float = 0.0
 
@@ -110,7 +118,7 @@ class Scene:
         rgba: ArrayLike = (0.7, 0.7, 0.7, 1.0),
         ids: tuple[int, int] = NOBODY,
         *,
-        ground: bool = False,
+        casts: bool = True,
         specular: float = 0.2,
         grid: float = 0.0,
     ) -> None:
@@ -119,7 +127,7 @@ class Scene:
         matrix[:, :3] *= np.asarray(scale, dtype=float)
         color = np.ones(4)
         color[: len(np.atleast_1d(rgba))] = rgba
-        self.items.append(Item(mesh, matrix, color, ids, ground, specular, grid))
+        self.items.append(Item(mesh, matrix, color, ids, casts, specular, grid))
 
     def add_world(self, world: World, show: Show | None = None) -> None:
         """Add what is to be shown of a world, and take its up."""
@@ -142,14 +150,15 @@ class Scene:
             for node in body.shapenodes:
                 if collision_shapes:
                     if node.shape is not None and node.has_collision_aspect():
-                        add_shapenode(self, node, _COLLISION if rgba is None else rgba)
+                        fixed = not body.dependent_dofs or not skel.is_mobile()
+                        add_shapenode(self, node, (_FLOOR if fixed else _COLLISION) if rgba is None else rgba)
                 elif _is_drawn(node):
                     add_shapenode(self, node, rgba)
 
     def _add_signs(self, skel: Skeleton, show: Show) -> None:
         size = _size_of_signs(skel)
         if show.centers_of_mass and skel.bodynodes:
-            self.add(geometry.sphere(2), _at(skel.C), 0.25 * size, _CENTER)
+            self.add(geometry.sphere(2), _at(skel.C), 0.25 * size, _CENTER, casts=False)
         for body in skel.bodynodes:
             if show.frames:
                 self.add_frame(body.T, size)
@@ -169,7 +178,7 @@ class Scene:
 
     def add_marker(self, position: Array, ids: tuple[int, int] = NOBODY, radius: float = 0.01) -> None:
         """Add a marker at a position (3,), m."""
-        self.add(geometry.sphere(2), _at(position), radius, (0.95, 0.35, 0.15), ids)
+        self.add(geometry.sphere(2), _at(position), radius, _MARKER, ids, casts=False)
 
     def add_contacts(self, rows: Array, size: float = 0.01, force_scale: float = -0.005) -> None:
         """Add contacts, rows of `CollisionResult.rows`: a dot of radius `size`, m, and an arrow along the force.
@@ -178,7 +187,7 @@ class Scene:
         """
         for row in rows:
             point, force = row[:3], row[3:6]
-            self.add(geometry.sphere(2), _at(point), size, _FORCE)
+            self.add(geometry.sphere(2), _at(point), size, _FORCE, casts=False)
             self.add_arrow(point, point + force_scale * force, 0.3 * size)
 
     def add_arrow(
@@ -191,8 +200,8 @@ class Scene:
             return
         head = min(5.0 * radius, 0.5 * length)
         neck = tip - (tip - tail) * (head / length)
-        self.add(geometry.cylinder(), between(tail, neck), (radius, radius, length - head), rgba)
-        self.add(geometry.cone(), between(neck, tip), (2.2 * radius, 2.2 * radius, head), rgba)
+        self.add(geometry.cylinder(), between(tail, neck), (radius, radius, length - head), rgba, casts=False)
+        self.add(geometry.cone(), between(neck, tip), (2.2 * radius, 2.2 * radius, head), rgba, casts=False)
 
     def add_line(self, start: ArrayLike, end: ArrayLike, radius: float, rgba: ArrayLike) -> None:
         """Add a thin rod between two points (3,), m."""
@@ -207,17 +216,10 @@ class Scene:
             origin = transform[:3, 3]
             self.add_arrow(origin, origin + length * transform[:3, axis], 0.04 * length, rgba)
 
-    def add_ground(self, height: float = 0.0, size: float = 20.0, rgba: ArrayLike = (0.86, 0.88, 0.9)) -> None:
+    def add_ground(self, height: float = 0.0, size: float = 20.0, rgba: ArrayLike = _FLOOR) -> None:
         """Add a square floor with a grid at a height over the origin, m."""
         pose = between(height * self.up, (height + 1.0) * self.up, 0.0)
-        self.add(geometry.quad(), pose, size, rgba, ground=True, specular=0.0, grid=grid_of(size))
-
-
-_FORCE = (0.9, 0.15, 0.15)
-_CENTER = (0.95, 0.75, 0.1)
-_AXIS = (0.95, 0.6, 0.1)
-_COLLISION = (0.35, 0.6, 0.85)
-_METRES_PER_NEWTON = 0.005
+        self.add(geometry.quad(), pose, size, rgba, casts=False, specular=0.0, grid=grid_of(size))
 
 
 def from_world(world: World, show: Show | None = None) -> Scene:

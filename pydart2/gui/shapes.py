@@ -76,7 +76,7 @@ def _mark_floors(scene: Scene, first: int) -> None:
         width = float(np.sort(extent)[1])
         if width > 1.5 and float(extent @ np.abs(scene.up)) < 0.1 * width:
             grid = grid_of(width) if item.mesh in (geometry.box(), geometry.quad()) else 0.0
-            scene.items[i] = item._replace(ground=True, specular=0.0, grid=grid)
+            scene.items[i] = item._replace(casts=False, specular=0.0, grid=grid)
 
 
 def _sphere(d: _Drawing) -> None:
