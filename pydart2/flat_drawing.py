@@ -23,12 +23,12 @@ class _Drawn(World):
             self.add_skeleton_from_id(i)
 
 
-def world__render(wid: int) -> None:  # noqa: N802 (the original's names)
+def world__render(wid: int) -> None:
     """world__render(wid) -> None: Draw a world."""
     _Drawn(WorldHandle.find(wid)).render()
 
 
-def skeleton__render(wid: int, skid: int) -> None:  # noqa: N802
+def skeleton__render(wid: int, skid: int) -> None:
     """skeleton__render(wid, skid) -> None: Draw a skeleton."""
     _Drawn(WorldHandle.find(wid)).skeletons[skid].render()
 
@@ -38,12 +38,12 @@ def skeleton__renderWithColor(wid: int, skid: int, color: ArrayLike) -> None:  #
     _Drawn(WorldHandle.find(wid)).skeletons[skid].render_with_color(color)
 
 
-def marker__render(wid: int, skid: int, mid: int) -> None:  # noqa: N802
+def marker__render(wid: int, skid: int, mid: int) -> None:
     """marker__render(wid, skid, mid) -> None: Draw a marker."""
     _Drawn(WorldHandle.find(wid)).skeletons[skid].markers[mid].render()
 
 
-def shape__render(wid: int, skid: int, bid: int, sid: int) -> None:  # noqa: N802
+def shape__render(wid: int, skid: int, bid: int, sid: int) -> None:
     """shape__render(wid, skid, bid, sid) -> None: Draw a shape in grey in the axes of OpenGL's matrices."""
     shape = _Drawn(WorldHandle.find(wid)).skeletons[skid].bodynodes[bid].shapenodes[sid].shape
     if shape is not None:
