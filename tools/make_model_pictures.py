@@ -1,6 +1,6 @@
 """Draws every model of data/ from three sides: python tools/make_model_pictures.py [FOLDER].
 
-Makes one PNG a model, by default in docs/images/models: from the front, from the side, and from behind above.
+Makes one PNG a model, by default in docs/images/models: from the front, from the side, and from behind.
 """
 
 from __future__ import annotations

@@ -30,6 +30,7 @@ class Context(Protocol):
     """An OpenGL context that one thread at a time can make current."""
 
     name: str
+    number: int  # that of current_context
 
     def make_current(self) -> None:
         """Make it current in this thread."""
@@ -72,7 +73,7 @@ def load_opengl() -> None:
             f"PyOpenGL cannot be loaded ({error}); pip install PyOpenGL, apt-get install libgl1"
         ) from None
     loaded = platform.PLATFORM
-    if loaded.GetCurrentContext is not current_context and os.environ.get("PYOPENGL_PLATFORM") != "osmesa":
+    if loaded.GetCurrentContext is not current_context:
         # PyOpenGL asks the one window system that it was loaded with; the context may have come from the other.
         for owner in (loaded, platform):
             owner.GetCurrentContext = owner.CurrentContextIsValid = current_context
@@ -127,7 +128,7 @@ class EglContext:
             context = egl("eglCreateContext", _pointer, self._display, config, _NOTHING, attributes)
             if not count.value or not context:
                 raise ContextError(f"no OpenGL 3.3 compatibility context (EGL error {self._error()})")
-            self._context = _pointer(context)
+            self._context, self.number = _pointer(context), int(context)
         load_opengl()
 
     def _open_display(self) -> ctypes.c_void_p:
@@ -175,7 +176,7 @@ class OSMesaContext:
         context = self._mesa("OSMesaCreateContextAttribs", _pointer, attributes, _NOTHING)
         if not context:
             raise ContextError("no OpenGL 3.3 compatibility context")
-        self._context = _pointer(context)
+        self._context, self.number = _pointer(context), int(context)
         self._pixel = (ctypes.c_ubyte * 4)()  # its own picture; ours are framebuffer objects
         os.environ["PYOPENGL_PLATFORM"] = "osmesa"
         load_opengl()
@@ -199,17 +200,18 @@ _WAYS: dict[str, Callable[[], Context]] = {"egl": EglContext, "osmesa": OSMesaCo
 
 def current_context() -> int:
     """A number for the context that is current in this thread, whoever made it; 0 if there is none."""
-    for library, function in (("libEGL.so.1", "eglGetCurrentContext"), ("libGLX.so.0", "glXGetCurrentContext")):
-        try:
-            found = ctypes.CDLL(library, mode=os.RTLD_NOLOAD)
-        except OSError:
-            continue  # not loaded by anyone, so no context of its
-        get = getattr(found, function)
-        get.restype = _pointer
-        context = get()
-        if context:
+    for name, function in _CURRENT:
+        library = _loaded(name)
+        if library is not None and (context := library(function, _pointer)):
             return int(context)
     return 0
+
+
+_CURRENT = (
+    ("libEGL.so.1", "eglGetCurrentContext"),
+    ("libGLX.so.0", "glXGetCurrentContext"),
+    ("libOSMesa.so.8", "OSMesaGetCurrentContext"),
+)
 
 
 @contextmanager
@@ -255,10 +257,15 @@ def _release_glx() -> Callable[[], None] | None:
     return lambda: glx("glXMakeContextCurrent", ctypes.c_int, display, draw, read, _pointer(context))
 
 
+_found: dict[str, _Library] = {}
+
+
 def _loaded(name: str) -> _Library | None:
     """A library that someone in this process has loaded; None if nobody has."""
-    try:
-        ctypes.CDLL(name, mode=os.RTLD_NOLOAD)
-    except OSError:
-        return None
-    return _Library(name)
+    if name not in _found:
+        try:
+            ctypes.CDLL(name, mode=os.RTLD_NOLOAD)
+        except OSError:
+            return None
+        _found[name] = _Library(name)
+    return _found[name]

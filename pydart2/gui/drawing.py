@@ -44,6 +44,11 @@ def renderer() -> SceneRenderer:
     return found
 
 
+def forget(context: int) -> None:
+    """Let go of the renderer of a context that is gone."""
+    _renderers.pop(context, None)
+
+
 def matrices() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """OpenGL's model-view and projection matrices, (4, 4) each."""
     kinds = (GL.GL_MODELVIEW_MATRIX, GL.GL_PROJECTION_MATRIX)

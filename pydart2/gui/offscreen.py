@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import weakref
 from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -57,6 +58,7 @@ class OffscreenRenderer:
         self.width, self.height, self.samples = width, height, samples
         self._lock = threading.RLock()
         self._context = contexts.create_context()
+        self._free = weakref.finalize(self, _free, self._context)
         self._targets: OrderedDict[tuple[int, ...], ColorTarget | BodiesTarget] = OrderedDict()
         with self._current():
             from pydart2.gui.opengl.scene import OpenGLScene
@@ -116,7 +118,7 @@ class OffscreenRenderer:
     def close(self) -> None:
         """Free the context; the renderer can no longer be used."""
         with self._lock:
-            self._context.destroy()
+            self._free()
 
     def _render_rgb(self, world: Any, size: tuple[int, int], camera: Camera) -> NDArray[np.uint8]:
         from pydart2.gui.targets import ColorTarget
@@ -131,9 +133,12 @@ class OffscreenRenderer:
         from pydart2.gui import drawing
         from pydart2.gui.targets import BodiesTarget
 
+        if not hasattr(world, "skeletons"):
+            raise TypeError(f"mode {mode!r} shows the bodies of a World, not of {world!r}")
         target: BodiesTarget = self._target(BodiesTarget, *size)
         target.begin()
-        show = scenes.Show(markers=False, contacts=False, forces=False)
+        collision_shapes = self.scene.show.collision_shapes
+        show = scenes.Show(markers=False, contacts=False, forces=False, collision_shapes=collision_shapes)
         scene = scenes.from_world(world, show)
         drawing.renderer().draw_bodies(scene, camera.view, camera.projection(size[0] / size[1]))
         return target.read_depth() if mode == "depth" else target.read_ids()
@@ -149,6 +154,8 @@ class OffscreenRenderer:
 
     @contextmanager
     def _current(self) -> Iterator[None]:
+        if not self._free.alive:
+            raise contexts.ContextError("this OffscreenRenderer is closed")
         with contexts.current(self._context, self._lock):
             yield
 
@@ -165,6 +172,13 @@ def render(world: Any, width: int = 640, height: int = 480, camera: CameraLike =
 @lru_cache(maxsize=1)
 def _shared_renderer() -> OffscreenRenderer:
     return OffscreenRenderer()
+
+
+def _free(context: contexts.Context) -> None:
+    from pydart2.gui import drawing
+
+    drawing.forget(context.number)
+    context.destroy()
 
 
 def _check_size(width: int, height: int) -> None:

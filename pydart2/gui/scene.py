@@ -122,12 +122,13 @@ class Scene:
         specular: float = 0.2,
         grid: float = 0.0,
     ) -> None:
-        """Add a mesh: pose in the world (4, 4), factors along the mesh's axes (3,) or one, colour."""
+        """Add a mesh: pose in the world (4, 4), factors along the mesh's axes (3,) or one, colour of 3 or 4 numbers."""
         matrix = transform.copy()
         matrix[:, :3] *= np.asarray(scale, dtype=float)
         color = np.ones(4)
         color[: len(np.atleast_1d(rgba))] = rgba
-        self.items.append(Item(mesh, matrix, color, ids, casts, specular, grid))
+        if color[3] > 0.0:
+            self.items.append(Item(mesh, matrix, color, ids, casts, specular, grid))
 
     def add_world(self, world: World, show: Show | None = None) -> None:
         """Add what is to be shown of a world, and take its up."""
