@@ -11,7 +11,7 @@ import pydart2
 
 _BODY = """
 <skeleton name="{name}"><mobile>{mobile}</mobile>
-  <joint type="{joint}"><parent>world</parent><child>body</child></joint>
+  <joint name="joint" type="{joint}"><parent>world</parent><child>body</child></joint>
   <body name="body"><transformation>{pose}</transformation>
     <visualization_shape><geometry>{geometry}</geometry><color>{color}</color></visualization_shape>
   </body>
