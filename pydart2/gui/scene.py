@@ -243,9 +243,11 @@ def grid_of(width: float) -> float:
 
 
 def between(start: Array, end: Array, part: float = 0.5) -> Array:
-    """A pose (4, 4) whose z axis points from `start` to `end`, its origin at this part of the way."""
+    """A pose (4, 4) whose z axis points from `start` to `end`, its x axis to the world's x (to its y where the z axis is
+    along its x), its origin at this part of the way."""
     z = (end - start) / np.linalg.norm(end - start)
-    x = np.cross(np.eye(3)[np.argmin(np.abs(z))], z)
+    x = np.eye(3)[0 if abs(z[0]) < 0.9 else 1]
+    x = x - (x @ z) * z
     x /= np.linalg.norm(x)
     pose = np.eye(4)
     pose[:3, :3] = np.stack([x, np.cross(z, x), z], axis=1)
