@@ -169,9 +169,9 @@ class OSMesaContext:
     _ATTRIBUTES = (0x22, 0x1908, 0x30, 24, 0x33, 0x35, 0x36, 3, 0x37, 3, 0)
 
     def __init__(self) -> None:
+        self._mesa = _Library("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
         if "OpenGL.platform" in sys.modules and os.environ.get("PYOPENGL_PLATFORM") != "osmesa":
             raise ContextError("PyOpenGL is loaded already for another one; set PYDART2_GL=osmesa before the start")
-        self._mesa = _Library("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
         attributes = (ctypes.c_int * len(self._ATTRIBUTES))(*self._ATTRIBUTES)
         context = self._mesa("OSMesaCreateContextAttribs", _pointer, attributes, _NOTHING)
         if not context:

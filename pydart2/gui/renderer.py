@@ -165,6 +165,8 @@ class SceneRenderer:
         if self._shadow is not None:
             GL.glActiveTexture(GL.GL_TEXTURE1)
             GL.glBindTexture(GL.GL_TEXTURE_2D, self._shadow.texture)
+        if mesh.is_closed:
+            GL.glEnable(GL.GL_CULL_FACE)
         GL.glBindVertexArray(self._pools[0].vao)
         start = ctypes.c_void_p(4 * part.first_index)
         GL.glDrawElementsBaseVertex(GL.GL_TRIANGLES, part.indices, GL.GL_UNSIGNED_INT, start, part.base_vertex)

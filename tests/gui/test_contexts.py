@@ -1,0 +1,128 @@
+"""The same picture from every context; what is said when there is none; nothing loaded before it is used."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pydart2.gui import context
+from pydart2.gui.context import ContextError, create_context
+
+ROOT = Path(__file__).resolve().parents[2]
+
+DIGESTS = """
+import hashlib, pydart2
+from pydart2.gui import render
+world = pydart2.World(0.001, pydart2.data_path("skel/shapes.skel"))
+world.step(40)
+print(*[hashlib.sha256(render(world, 200, 150, mode=m).tobytes()).hexdigest() for m in ("rgb", "depth", "segmentation")])
+"""
+
+GLUT = """
+import hashlib, numpy as np, pydart2
+from OpenGL import GL, GLUT
+GLUT.glutInit([])
+GLUT.glutInitDisplayMode(GLUT.GLUT_RGBA | GLUT.GLUT_DOUBLE | GLUT.GLUT_DEPTH | GLUT.GLUT_MULTISAMPLE)
+GLUT.glutInitWindowSize(200, 150)
+GLUT.glutCreateWindow(b"test")
+from pydart2.gui.opengl.scene import OpenGLScene
+from pydart2.gui import OffscreenRenderer, render
+world = pydart2.World(0.001, pydart2.data_path("skel/shapes.skel"))
+world.step(40)
+scene = OpenGLScene(200, 150)
+scene.init()
+scene.resize(200, 150)
+for i in range(2):  # a picture without the window between those of the window
+    scene.render(world)
+    pixels = GL.glReadPixels(0, 0, 200, 150, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE)
+    shown = np.frombuffer(pixels, np.uint8).reshape(150, 200, 4)[::-1, :, :3]
+    samples = GL.glGetIntegerv(GL.GL_SAMPLES)
+    assert (OffscreenRenderer(200, 150, samples).render(world) == shown).all()
+    assert shown.std() > 10
+print("same")
+"""
+
+
+def run(code: str, *before: str, **variables: str) -> str:
+    environment = {key: value for key, value in os.environ.items() if key not in ("PYDART2_GL", "PYOPENGL_PLATFORM")}
+    environment |= {"PYTHONPATH": str(ROOT), **variables}
+    command = [*before, sys.executable, "-c", code]
+    done = subprocess.run(command, env=environment, cwd=ROOT, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+def test_egl_and_osmesa_draw_equal_pixels() -> None:
+    assert run(DIGESTS, PYDART2_GL="egl") == run(DIGESTS, PYDART2_GL="osmesa") == run(DIGESTS)
+
+
+def test_a_foreign_window_shows_equal_pixels() -> None:
+    assert run(GLUT, "xvfb-run", "-a") == "same"
+
+
+def test_an_unknown_way_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYDART2_GL", "wgl")
+    with pytest.raises(ContextError, match="'wgl' is not known; it may be 'egl' or 'osmesa'"):
+        create_context()
+
+
+def test_without_libraries_the_packages_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(*names: str) -> None:
+        raise OSError(f"{names[0]}: cannot open shared object file")
+
+    monkeypatch.delenv("PYDART2_GL", raising=False)
+    monkeypatch.setattr(context, "_load", missing)
+    with pytest.raises(ContextError) as error:
+        create_context()
+    for word in ("apt-get install", "libegl1", "libgl1-mesa-dri", "libosmesa6", "libEGL.so.1", "libOSMesa.so.8"):
+        assert word in str(error.value)
+
+
+def test_osmesa_after_another_is_refused_with_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    import OpenGL.platform  # noqa: F401
+
+    monkeypatch.setenv("PYDART2_GL", "osmesa")
+    with pytest.raises(ContextError, match="set PYDART2_GL=osmesa before the start"):
+        create_context()
+
+
+def test_drawing_without_a_context_is_refused() -> None:
+    import pydart2
+
+    with pytest.raises(ContextError, match=r"pydart2\.gui\.render\(world\)"):
+        pydart2.World(0.001).render()
+
+
+def test_nothing_is_loaded_before_it_is_used() -> None:
+    code = """
+import sys, pydart2
+def heavy():
+    return sorted({m.split(".")[0] for m in sys.modules} & {"OpenGL", "PyQt5", "scipy", "PIL"})
+assert not heavy() and "pydart2.gui" not in sys.modules, heavy()
+pydart2.gui.Trackball, pydart2.gui.Camera
+import pydart2.gui.scene, pydart2.gui.shapes
+assert not heavy(), heavy()
+pydart2.gui.render
+assert not heavy(), heavy()
+"""
+    run(code)
+
+
+def test_a_core_profile_or_an_old_context_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    from OpenGL import GL
+
+    from pydart2.gui import renderer
+
+    answers = {GL.GL_MAJOR_VERSION: 3, GL.GL_MINOR_VERSION: 1, GL.GL_CONTEXT_PROFILE_MASK: 1}
+    monkeypatch.setattr(renderer.GL, "glGetIntegerv", answers.__getitem__)
+    monkeypatch.setattr(renderer.GL, "glGetString", lambda _: b"3.1 Mesa")
+    with pytest.raises(ContextError, match=r"4\.3 is needed, this is 3\.1 Mesa"):
+        renderer.check_context()
+    answers[GL.GL_MAJOR_VERSION] = 4
+    answers[GL.GL_MINOR_VERSION] = 5
+    with pytest.raises(ContextError, match="core profile"):
+        renderer.check_context()
