@@ -22,6 +22,8 @@ test-packaging: setup
 bench: setup
 	$(VENV)/bin/python benchmarks/step_overhead.py
 	$(VENV)/bin/python benchmarks/reading.py
+	$(VENV)/bin/pip install --quiet mujoco
+	$(VENV)/bin/python benchmarks/rendering.py
 
 wheel: setup
 	$(VENV)/bin/python tools/make_wheel.py

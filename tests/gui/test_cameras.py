@@ -134,7 +134,9 @@ def test_projection_edges() -> None:
         assert clip[2] / clip[3] == pytest.approx(expected_z)
 
 
-@pytest.mark.parametrize("wrong", [2, -1, (np.zeros((4, 4)), 0.7), (np.eye(3), 0.7), (np.eye(4), 0.0), (np.eye(4), 4.0)])
+@pytest.mark.parametrize(
+    "wrong", [2, -1, (np.zeros((4, 4)), 0.7), (np.eye(3), 0.7), (np.eye(4), 0.0), (np.eye(4), 4.0)]
+)
 def test_wrong_cameras_are_refused(wrong: object) -> None:
     with pytest.raises(ValueError, match="camera"):
         as_camera(wrong)  # type: ignore[arg-type]

