@@ -294,7 +294,7 @@ def heightmap(heights: NDArray[np.float64]) -> Mesh:
     return mesh(points.reshape(-1, 3), np.concatenate([np.stack([a, c, b], 1), np.stack([b, c, d], 1)]))
 
 
-def _outwards(points: NDArray[np.float64], faces: NDArray[np.intp]) -> NDArray[np.intp]:
+def _outwards(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.intp]:
     """The faces of a convex body, each turned so that it faces outwards."""
     a, b, c = points[faces].transpose(1, 0, 2)
     inwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), a - points.mean(axis=0)) < 0.0

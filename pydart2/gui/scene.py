@@ -243,8 +243,8 @@ def grid_of(width: float) -> float:
 
 
 def between(start: Array, end: Array, part: float = 0.5) -> Array:
-    """A pose (4, 4) whose z axis points from `start` to `end`, its x axis to the world's x (to its y where the z axis is
-    along its x), its origin at this part of the way."""
+    """A pose (4, 4) whose z axis points from `start` to `end`, and its x axis nearly along the world's x (or y, where z
+    is along x); its origin is at this part of the way."""
     z = (end - start) / np.linalg.norm(end - start)
     x = np.eye(3)[0 if abs(z[0]) < 0.9 else 1]
     x = x - (x @ z) * z

@@ -46,9 +46,11 @@ uniform vec3 u_eye;
 uniform float u_shadow_push;
 out vec3 v_to_eye;
 out vec3 v_normal;
-out vec3 v_shadow;
 flat out vec4 v_color;
 flat out float v_specular;
+#ifdef SHADOW
+out vec3 v_shadow;
+#endif
 #ifdef RICH
 out vec2 v_coordinates;
 out vec4 v_tint;
@@ -62,8 +64,10 @@ void emit(vec3 world, vec3 normal, vec4 color, float specular) {
     gl_Position = u_view_projection * vec4(world, 1.0);
     v_to_eye = u_eye - world;
     v_normal = normal;
-    v_shadow = (u_shadow * vec4(world + u_shadow_push * normalize(normal), 1.0)).xyz;
     v_color = vec4(color.rgb * color.rgb, color.a);
+#ifdef SHADOW
+    v_shadow = (u_shadow * vec4(world + u_shadow_push * normalize(normal), 1.0)).xyz;
+#endif
     v_specular = specular;
 }
 """
@@ -105,9 +109,11 @@ uniform sampler2DShadow u_shadow_map;
 uniform float u_shadow_size; // of one texel; 0 without shadows
 in vec3 v_to_eye;
 in vec3 v_normal;
-in vec3 v_shadow;
 flat in vec4 v_color;
 flat in float v_specular;
+#ifdef SHADOW
+in vec3 v_shadow;
+#endif
 #ifdef RICH
 uniform sampler2D u_texture;
 in vec2 v_coordinates;

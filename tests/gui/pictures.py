@@ -1,5 +1,7 @@
-"""The pictures that are compared with stored ones: python tests/gui/pictures.py (from the tests folder's parent) draws them
-anew into tests/gui/pictures/. Look at them before they are committed."""
+"""The pictures that are compared with stored ones.
+
+``python tests/gui/pictures.py`` draws them anew into tests/gui/pictures/. Look at them before they are committed.
+"""
 
 from __future__ import annotations
 

@@ -19,7 +19,8 @@ import hashlib, pydart2
 from pydart2.gui import render
 world = pydart2.World(0.001, pydart2.data_path("skel/shapes.skel"))
 world.step(40)
-print(*[hashlib.sha256(render(world, 200, 150, mode=m).tobytes()).hexdigest() for m in ("rgb", "depth", "segmentation")])
+pictures = [render(world, 200, 150, mode=mode) for mode in ("rgb", "depth", "segmentation")]
+print(*[hashlib.sha256(picture.tobytes()).hexdigest() for picture in pictures])
 """
 
 GLUT = """

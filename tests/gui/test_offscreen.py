@@ -175,7 +175,7 @@ def test_moving_changes_the_picture_and_going_back_restores_it(renderer: Offscre
     world = world_of(body(box(0.5, 0.5, 0.5)))
     skel = world.skeletons[0]
     before = renderer.render(world, camera=FRONT)
-    skel.q = skel.q + [0.3, 0.2, 0.0, 0.4, 0.0, 0.0]
+    skel.q = skel.q + np.array([0.3, 0.2, 0.0, 0.4, 0.0, 0.0])
     moved = renderer.render(world, camera=FRONT)
     skel.q = np.zeros(6)
     assert (moved != before).any() and (renderer.render(world, camera=FRONT) == before).all()

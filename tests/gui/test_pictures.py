@@ -46,7 +46,7 @@ def test_the_measure_sees_what_an_eye_sees(renderer: OffscreenRenderer) -> None:
         setattr(renderer.scene.style, style, value)
         assert difference(renderer.render(world), picture) > LIMIT, style
         setattr(renderer.scene.style, style, before)
-    world.skeletons[3].q = world.skeletons[3].q + [0.0, 0.0, 0.0, 0.02, 0.0, 0.0]  # about two pixels
+    world.skeletons[3].q = world.skeletons[3].q + np.array([0.0, 0.0, 0.0, 0.02, 0.0, 0.0])  # about two pixels
     assert difference(renderer.render(world), picture) > LIMIT
     smooth_edges = OffscreenRenderer(240, 180, samples=0).render(primitives())
     assert 0.0 < difference(smooth_edges, picture) < 6 * LIMIT
