@@ -131,11 +131,10 @@ class SceneRenderer:
         for batch in batches:
             self._begin_lit(batch.bucket, texel > 0.0, uniforms)
             self._draw_batch(batch)
-        GL.glEnable(GL.GL_BLEND)
-        GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
+        blend()
         GL.glDepthMask(False)
         for batch in blended:
-            self._begin_lit(batch.bucket, texel > 0.0, uniforms)
+            self._begin_lit(batch.bucket, texel > 0.0, uniforms, "BLEND")
             self._draw_batch(batch)
         GL.glDepthMask(True)
         _leave()
@@ -159,7 +158,7 @@ class SceneRenderer:
         self._pools[0].require({mesh}, self._frame)
         part = self._pools[0].part(mesh)
         shadows = self._shadow is not None and "shadow" in self._uniforms
-        program = self._program("FIXED", *(["SHADOW"] if shadows else []))
+        program = self._program("FIXED", "BLEND", *(["SHADOW"] if shadows else []))
         program.use()
         program.set(eye_to_world=np.linalg.inv(self.frame_matrices[0]), **self._uniforms)
         if self._shadow is not None:
@@ -209,8 +208,8 @@ class SceneRenderer:
         GL.glBindTexture(GL.GL_TEXTURE_2D, self._shadow.texture)
         return matrix, texel
 
-    def _begin_lit(self, bucket: _Bucket, shadows: bool, uniforms: dict[str, object]) -> None:
-        features = []
+    def _begin_lit(self, bucket: _Bucket, shadows: bool, uniforms: dict[str, object], *more: str) -> None:
+        features = [*more]
         if self._pools[bucket.pool].rich:
             features.append("RICH")
             GL.glActiveTexture(GL.GL_TEXTURE0)
@@ -293,6 +292,13 @@ class SceneRenderer:
         GL.glBindBuffer(GL.GL_ARRAY_BUFFER, 0)
         GL.glBindBuffer(GL.GL_DRAW_INDIRECT_BUFFER, self._commands)
         GL.glBufferData(GL.GL_DRAW_INDIRECT_BUFFER, commands.nbytes, commands, GL.GL_STREAM_DRAW)
+
+
+def blend() -> None:
+    """Let what is behind show through; the picture itself stays opaque, so that a window is not seen through."""
+    GL.glEnable(GL.GL_BLEND)
+    factors = GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA
+    GL.glBlendFuncSeparate(*factors, GL.GL_ONE, GL.GL_ONE_MINUS_SRC_ALPHA)
 
 
 def check_context() -> None:

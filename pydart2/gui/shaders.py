@@ -46,8 +46,10 @@ uniform vec3 u_eye;
 uniform float u_shadow_push;
 out vec3 v_to_eye;
 out vec3 v_normal;
-flat out vec4 v_color;
+flat out vec4 v_color; // with the strength of highlights, if no alpha is needed
+#ifdef BLEND
 flat out float v_specular;
+#endif
 #ifdef SHADOW
 out vec3 v_shadow;
 #endif
@@ -64,11 +66,15 @@ void emit(vec3 world, vec3 normal, vec4 color, float specular) {
     gl_Position = u_view_projection * vec4(world, 1.0);
     v_to_eye = u_eye - world;
     v_normal = normal;
+#ifdef BLEND
     v_color = vec4(color.rgb * color.rgb, color.a);
+    v_specular = specular;
+#else
+    v_color = vec4(color.rgb * color.rgb, specular);
+#endif
 #ifdef SHADOW
     v_shadow = (u_shadow * vec4(world + u_shadow_push * normalize(normal), 1.0)).xyz;
 #endif
-    v_specular = specular;
 }
 """
 
@@ -110,7 +116,9 @@ uniform float u_shadow_size; // of one texel; 0 without shadows
 in vec3 v_to_eye;
 in vec3 v_normal;
 flat in vec4 v_color;
+#ifdef BLEND
 flat in float v_specular;
+#endif
 #ifdef SHADOW
 in vec3 v_shadow;
 #endif
@@ -156,7 +164,11 @@ vec3 grid(vec3 albedo) {
 
 void main() {
     vec3 albedo = v_color.rgb;
-    float alpha = v_color.a;
+#ifdef BLEND
+    float alpha = v_color.a, specular = v_specular;
+#else
+    float alpha = 1.0, specular = v_color.a;
+#endif
 #ifdef RICH
     vec4 texel = texture(u_texture, v_coordinates);
     albedo *= v_tint.rgb * texel.rgb * texel.rgb;
@@ -176,7 +188,7 @@ void main() {
     vec3 light = mix(u_floor, u_sky, 0.5 + 0.5 * dot(normal, u_up)) + u_fill * max(facing, 0.0) + u_key * key;
     float shine = max(dot(normal, normalize(u_light + to_eye)), 0.0);
     shine *= shine; shine *= shine; shine *= shine; shine *= shine; shine *= shine;
-    vec3 shown = albedo * light + u_key * (v_specular * shine * min(4.0 * key, 1.0));
+    vec3 shown = albedo * light + u_key * (specular * shine * min(4.0 * key, 1.0));
     color = vec4(sqrt(shown), alpha);
 }
 """
@@ -276,7 +288,7 @@ class Program:
 def lit(*features: str) -> Program:
     """Draws in light: instances of meshes or, with FIXED, a mesh with OpenGL's own matrices and colour.
 
-    RICH has textures and vertex colours, GRID a grid on top, CLOSED no back sides, SHADOW shadows.
+    RICH has textures and vertex colours, GRID a grid on top, CLOSED no back sides, SHADOW shadows, BLEND an alpha.
     """
     head = _HEAD + "".join(f"#define {feature}\n" for feature in features)
     main = _FIXED_MAIN if "FIXED" in features else _WORLD_MAIN

@@ -144,7 +144,7 @@ def _line_segments(d: _Drawing) -> None:
 
 
 def _heightmap(d: _Drawing) -> None:
-    mesh = _kept(("heights", d.shape.id(), d.shape.version()), lambda: geometry.heightmap(d.shape.heights()))
+    mesh = _kept(("heights", d.shape.id()), lambda: geometry.heightmap(d.shape.heights()), d.shape.version())
     d.add(mesh, d.shape.scale())
 
 
@@ -188,18 +188,18 @@ _KINDS: dict[str, Callable[[_Drawing], None]] = {
     "VoxelGridShape": _voxel_grid,
 }
 
-_made: OrderedDict[tuple[Any, ...], Any] = OrderedDict()
+_made: OrderedDict[tuple[Any, ...], tuple[int, Any]] = OrderedDict()
 _KEPT = 4096
 
 
-def _kept(key: tuple[Any, ...], make: Callable[[], Any]) -> Any:
-    """What `make` made for this key before; the engine gives no two shapes the same number."""
-    if key not in _made:
-        _made[key] = make()
+def _kept(key: tuple[Any, ...], make: Callable[[], Any], version: int = 0) -> Any:
+    """What `make` made for this key and version before; the engine gives no two shapes the same number."""
+    if key not in _made or _made[key][0] != version:
+        _made[key] = version, make()
         while len(_made) > _KEPT:
             _made.popitem(last=False)
     _made.move_to_end(key)
-    return _made[key]
+    return _made[key][1]
 
 
 def _meshes(shape: Any) -> list[tuple[Mesh, Array | None, float]]:
@@ -214,7 +214,7 @@ def _meshes(shape: Any) -> list[tuple[Mesh, Array | None, float]]:
             found.append((_mesh_of(handle, folder), material, min(handle.specular(), 1.0)))
         return found
 
-    made: list[tuple[Mesh, Array | None, float]] = _kept(("meshes", shape.id(), shape.version()), read)
+    made: list[tuple[Mesh, Array | None, float]] = _kept(("meshes", shape.id()), read, shape.version())
     return made
 
 

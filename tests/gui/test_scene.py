@@ -191,7 +191,7 @@ def test_pyramid_and_kinds_that_are_not_known() -> None:
 def test_contacts_are_dots_and_arrows_along_the_force() -> None:
     scene = Scene()
     scene.add_contacts(np.array([[1.0, 2.0, 3.0, 0.0, 100.0, 0.0], [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]]), 0.02, -0.005)
-    dot, shaft, head, second_dot = scene.items  # no arrow for no force
+    dot, shaft, head, _ = scene.items  # the second force is none and has no arrow
     assert dot.transform[:3, 3] == pytest.approx([1.0, 2.0, 3.0])
     assert np.linalg.norm(dot.transform[:3, 0]) == pytest.approx(0.02)
     assert head.transform @ [0, 0, 0.5, 1] == pytest.approx([1.0, 1.5, 3.0, 1.0])

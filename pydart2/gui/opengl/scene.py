@@ -12,7 +12,7 @@ from OpenGL import GL
 from pydart2.gui import drawing
 from pydart2.gui.camera import Camera, default_trackballs
 from pydart2.gui.opengl.renderer import Renderer
-from pydart2.gui.renderer import Style
+from pydart2.gui.renderer import Style, blend
 from pydart2.gui.scene import Show, up_of
 from pydart2.gui.trackball import Trackball
 
@@ -103,8 +103,7 @@ class OpenGLScene:
         GL.glDisable(GL.GL_LIGHTING)
         GL.glDisable(GL.GL_DEPTH_TEST)
         GL.glDisable(GL.GL_CULL_FACE)
-        GL.glEnable(GL.GL_BLEND)
-        GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
+        blend()
 
     def disable2D(self) -> None:  # noqa: N802
         """Draw in the world again."""
@@ -153,8 +152,7 @@ class OpenGLScene:
         GL.glEnable(GL.GL_LIGHTING)
         GL.glEnable(GL.GL_NORMALIZE)
         GL.glEnable(GL.GL_COLOR_MATERIAL)
-        GL.glEnable(GL.GL_BLEND)
-        GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
+        blend()
         for light, direction in ((GL.GL_LIGHT0, (1.0, 1.0, 0.0, 0.0)), (GL.GL_LIGHT1, (-1.0, 0.0, 0.0, 0.0))):
             GL.glLightfv(light, GL.GL_POSITION, direction)
             GL.glLightfv(light, GL.GL_DIFFUSE, (0.7, 0.7, 0.7, 1.0))
