@@ -23,7 +23,7 @@ def test_rows_are_unique() -> None:
 
 
 def test_every_row_has_a_check() -> None:
-    assert [row for row in ROWS if row not in CHECKS and row not in DRAWING | LEFT_OUT.keys()] == []
+    assert [row for row in ROWS if row not in CHECKS and row not in DRAWING | LEFT_OUT] == []
 
 
 def test_every_check_has_a_row() -> None:
@@ -32,6 +32,12 @@ def test_every_check_has_a_row() -> None:
 
 def test_open_rows_are_rows_without_a_check() -> None:
     assert [row for row in (*DRAWING, *LEFT_OUT) if row not in ROWS or row in CHECKS] == []
+
+
+def test_drawing_is_checked_by_tests_of_pictures() -> None:
+    for test in DRAWING.values():
+        module, _, name = test.rpartition(".")
+        assert hasattr(importlib.import_module(module), name), test
 
 
 def test_differences_are_of_checked_rows() -> None:

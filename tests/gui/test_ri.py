@@ -436,7 +436,7 @@ def test_parts_draw_themselves(changed: Changed) -> None:
 
 
 def test_flat_functions_draw_the_same(changed: Changed) -> None:
-    from pydart2 import flat_api
+    from pydart2 import pydart2_api as flat_api
 
     world = pydart2.World(0.001, pydart2.data_path("skel/cubes.skel"))
     wid = flat_api.createWorldFromSkel(pydart2.data_path("skel/cubes.skel"))
