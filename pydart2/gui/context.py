@@ -50,16 +50,31 @@ def create_context() -> Context:
     ContextError
         If none works; the message tells what was tried and what to install.
     """
+    _check_process()
     wanted = os.environ.get("PYDART2_GL", "").lower()
     if wanted not in ("", *_WAYS):
         raise ContextError(f"PYDART2_GL={wanted!r} is not known; it may be 'egl' or 'osmesa'")
     reasons = []
     for name in [wanted] if wanted else list(_WAYS):
         try:
-            return _WAYS[name]()
+            context = _WAYS[name]()
+            _used_by.add(os.getpid())
+            return context
         except (OSError, ContextError) as error:
             reasons.append(f"{name}: {error}")
     raise ContextError(f"{_HELP}. Tried {'; '.join(reasons)}")
+
+
+_used_by: set[int] = set()  # processes that made contexts: this one, and those it was forked from
+
+
+def _check_process() -> None:
+    """ContextError in a fork of a process that used OpenGL: the drivers' threads are missing there, and calls hang."""
+    if _used_by - {os.getpid()}:
+        raise ContextError(
+            "this process was forked from one that had used OpenGL; start it with multiprocessing's 'spawn', or fork "
+            "before the first picture"
+        )
 
 
 def load_opengl() -> None:
@@ -217,6 +232,7 @@ _CURRENT = (
 @contextmanager
 def current(context: Context, lock: threading.RLock) -> Iterator[None]:
     """Make a context current, alone under the lock; afterwards that which was current before, of a window perhaps."""
+    _check_process()
     with lock, _nothing_current():
         context.make_current()
         try:

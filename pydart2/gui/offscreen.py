@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import weakref
 from collections import OrderedDict
@@ -58,7 +59,7 @@ class OffscreenRenderer:
         self.width, self.height, self.samples = width, height, samples
         self._lock = threading.RLock()
         self._context = contexts.create_context()
-        self._free = weakref.finalize(self, _free, self._context)
+        self._free = weakref.finalize(self, _free, self._context, os.getpid())
         self._targets: OrderedDict[tuple[int, ...], ColorTarget | BodiesTarget] = OrderedDict()
         with self._current():
             from pydart2.gui.opengl.scene import OpenGLScene
@@ -174,7 +175,9 @@ def _shared_renderer() -> OffscreenRenderer:
     return OffscreenRenderer()
 
 
-def _free(context: contexts.Context) -> None:
+def _free(context: contexts.Context, process: int) -> None:
+    if process != os.getpid():
+        return  # in a fork, where the driver would hang
     from pydart2.gui import drawing
 
     drawing.forget(context.number)

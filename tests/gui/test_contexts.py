@@ -94,6 +94,29 @@ def run(code: str, *before: str, **variables: str) -> str:
     return done.stdout.strip()
 
 
+FORK = """
+import os, pydart2
+from pydart2.gui import OffscreenRenderer, render
+world = pydart2.World(0.001)
+render(world, 8, 8)
+if (child := os.fork()) == 0:
+    errors = []
+    for draw in (lambda: render(world, 8, 8), lambda: OffscreenRenderer(8, 8)):
+        try:
+            draw()
+        except pydart2.PydartError as error:
+            errors.append("spawn" in str(error))
+    raise SystemExit(0 if errors == [True, True] else 1)  # with all that is freed at the end
+assert os.waitpid(child, 0)[1] == 0
+render(world, 8, 8)
+print("told")
+"""
+
+
+def test_a_fork_is_told_instead_of_hanging() -> None:
+    assert run(FORK) == "told"
+
+
 def test_egl_and_osmesa_draw_equal_pixels() -> None:
     assert run(DIGESTS, PYDART2_GL="egl") == run(DIGESTS, PYDART2_GL="osmesa") == run(DIGESTS)
 
