@@ -215,18 +215,18 @@ class BodyNode:
 
     # Pose and motion
 
-    def transform(self) -> NDArray[np.float64]:
+    def transform(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Pose of the body frame in the world, shape (4, 4), m."""
-        return self._handle.transform()
+        return self._handle.transform(out)
 
-    def world_transform(self) -> NDArray[np.float64]:
+    def world_transform(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Pose of the body frame in the world, shape (4, 4), m."""
-        return self._handle.transform()
+        return self._handle.transform(out)
 
     @property
     def T(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
         """Pose of the body frame in the world, shape (4, 4), m."""
-        return self._handle.transform()
+        return self._handle.transform(None)
 
     def relative_transform(self) -> NDArray[np.float64]:
         """Pose of the body frame in the parent body, shape (4, 4), m."""
@@ -379,43 +379,53 @@ class BodyNode:
 
     # Jacobians
 
-    def jacobian(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+    def jacobian(
+        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
         """Jacobian of a point in body coordinates, shape (6, n)."""
-        return self._handle.jacobian(offset, full)
+        return self._handle.jacobian(offset, full, out)
 
-    def world_jacobian(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+    def world_jacobian(
+        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
         """Jacobian of a point in world coordinates, shape (6, n)."""
-        return self._handle.world_jacobian(offset, full)
+        return self._handle.world_jacobian(offset, full, out)
 
-    def linear_jacobian(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+    def linear_jacobian(
+        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
         """Linear Jacobian of a point in world coordinates, shape (3, n): ``J @ dq`` is its velocity in m/s."""
-        return self._handle.linear_jacobian(offset, full)
+        return self._handle.linear_jacobian(offset, full, out)
 
     @property
     def J(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
         """Linear Jacobian of the origin in world coordinates, shape (3, ndofs)."""
-        return self._handle.linear_jacobian(None, True)
+        return self._handle.linear_jacobian(None, True, None)
 
-    def angular_jacobian(self, full: bool = True) -> NDArray[np.float64]:
+    def angular_jacobian(self, full: bool = True, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Angular Jacobian in world coordinates, shape (3, n): times dq it is the angular velocity in rad/s."""
-        return self._handle.angular_jacobian(full)
+        return self._handle.angular_jacobian(full, out)
 
-    def linear_jacobian_deriv(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+    def linear_jacobian_deriv(
+        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
         """Time derivative of linear_jacobian(), shape (3, n)."""
-        return self._handle.linear_jacobian_deriv(offset, full)
+        return self._handle.linear_jacobian_deriv(offset, full, out)
 
     @property
     def dJ(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
         """Time derivative of J, shape (3, ndofs)."""
-        return self._handle.linear_jacobian_deriv(None, True)
+        return self._handle.linear_jacobian_deriv(None, True, None)
 
-    def world_jacobian_classic_deriv(self, offset: ArrayLike | None = None, full: bool = True) -> NDArray[np.float64]:
+    def world_jacobian_classic_deriv(
+        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
         """Time derivative of world_jacobian(), shape (6, n): times dq, what ``J ddq`` lacks of the acceleration."""
-        return self._handle.world_jacobian_classic_deriv(offset, full)
+        return self._handle.world_jacobian_classic_deriv(offset, full, out)
 
-    def angular_jacobian_deriv(self, full: bool = True) -> NDArray[np.float64]:
+    def angular_jacobian_deriv(self, full: bool = True, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Time derivative of angular_jacobian(), shape (3, n)."""
-        return self._handle.angular_jacobian_deriv(full)
+        return self._handle.angular_jacobian_deriv(full, out)
 
     def expand_jacobian(self, Jdep: ArrayLike) -> NDArray[np.float64]:  # noqa: N803 (the original's)
         """A Jacobian over the dependent dofs, shape (r, n), with zero columns for the others, shape (r, ndofs)."""

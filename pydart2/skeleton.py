@@ -42,6 +42,9 @@ class Skeleton:
         q["j_knee"] = 0.4
         skel.q = q
 
+    The methods with an `out` argument allocate nothing when they get one: they fill this array (float64, C order, the
+    shape of the result) and return it.
+
     Attributes
     ----------
     world : World
@@ -104,7 +107,8 @@ class Skeleton:
         self.name_to_joint = {joint.name: joint for joint in self.joints}
         self.name_to_body = {body.name: body for body in self.bodynodes}
         self.names = Names([dof.name for dof in self.dofs], self)
-        self._like = SkelVector(np.zeros(len(self.dofs)), self)
+        self._pattern = SkelVector(np.zeros(len(self.dofs)), self)
+        self._pattern.flags.writeable = False  # what says to the C++ layer: a new vector like this one
 
     def set_root_joint_to_trans_and_euler(self) -> None:
         """Put the root under a TranslationalJoint ``root_t`` and an EulerJoint ``root_r`` (XYZ), by a massless body.
@@ -241,9 +245,9 @@ class Skeleton:
 
     # State
 
-    def positions(self) -> SkelVector:
+    def positions(self, out: SkelVector | None = None) -> SkelVector:
         """Generalized positions, shape (ndofs,), rad or m. A copy."""
-        return self._handle.positions(self._like)
+        return self._handle.positions(self._pattern if out is None else out)
 
     def set_positions(self, _q: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized positions, shape (ndofs,), rad or m.
@@ -257,15 +261,15 @@ class Skeleton:
     @property
     def q(self) -> SkelVector:
         """Generalized positions, shape (ndofs,), rad or m. A copy."""
-        return self._handle.positions(self._like)
+        return self._handle.positions(self._pattern)
 
     @q.setter
     def q(self, q: ArrayLike) -> None:
         self._handle.set_positions(q)
 
-    def velocities(self) -> SkelVector:
+    def velocities(self, out: SkelVector | None = None) -> SkelVector:
         """Generalized velocities, shape (ndofs,), rad/s or m/s. A copy."""
-        return self._handle.velocities(self._like)
+        return self._handle.velocities(self._pattern if out is None else out)
 
     def set_velocities(self, _dq: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized velocities, shape (ndofs,), rad/s or m/s, or some of them by name."""
@@ -276,15 +280,15 @@ class Skeleton:
     @property
     def dq(self) -> SkelVector:
         """Generalized velocities, shape (ndofs,), rad/s or m/s. A copy."""
-        return self._handle.velocities(self._like)
+        return self._handle.velocities(self._pattern)
 
     @dq.setter
     def dq(self, dq: ArrayLike) -> None:
         self._handle.set_velocities(dq)
 
-    def accelerations(self) -> SkelVector:
+    def accelerations(self, out: SkelVector | None = None) -> SkelVector:
         """Generalized accelerations of the last step, shape (ndofs,), rad/s² or m/s². A copy."""
-        return self._handle.accelerations(self._like)
+        return self._handle.accelerations(self._pattern if out is None else out)
 
     def set_accelerations(self, _ddq: ArrayLike) -> None:
         """Set the generalized accelerations, shape (ndofs,), rad/s² or m/s²."""
@@ -293,15 +297,15 @@ class Skeleton:
     @property
     def ddq(self) -> SkelVector:
         """Generalized accelerations of the last step, shape (ndofs,), rad/s² or m/s². A copy."""
-        return self._handle.accelerations(self._like)
+        return self._handle.accelerations(self._pattern)
 
     @ddq.setter
     def ddq(self, ddq: ArrayLike) -> None:
         self._handle.set_accelerations(ddq)
 
-    def states(self) -> NDArray[np.float64]:
+    def states(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """[q, dq], shape (2 * ndofs,)."""
-        return self._handle.states()
+        return self._handle.states(out)
 
     def set_states(self, _x: ArrayLike) -> None:
         """Set [q, dq], shape (2 * ndofs,)."""
@@ -310,7 +314,7 @@ class Skeleton:
     @property
     def x(self) -> NDArray[np.float64]:
         """[q, dq], shape (2 * ndofs,)."""
-        return self._handle.states()
+        return self._handle.states(None)
 
     @x.setter
     def x(self, x: ArrayLike) -> None:
@@ -364,40 +368,40 @@ class Skeleton:
 
     # Dynamics: M ddq + c = tau
 
-    def mass_matrix(self) -> NDArray[np.float64]:
+    def mass_matrix(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Joint-space mass matrix, shape (ndofs, ndofs), kg m² or kg."""
-        return self._handle.mass_matrix()
+        return self._handle.mass_matrix(out)
 
     @property
     def M(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
         """Joint-space mass matrix, shape (ndofs, ndofs), kg m² or kg."""
-        return self._handle.mass_matrix()
+        return self._handle.mass_matrix(None)
 
-    def inv_mass_matrix(self) -> NDArray[np.float64]:
+    def inv_mass_matrix(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Inverse of the mass matrix, shape (ndofs, ndofs)."""
-        return self._handle.inv_mass_matrix()
+        return self._handle.inv_mass_matrix(out)
 
     @property
     def invM(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
         """Inverse of the mass matrix, shape (ndofs, ndofs)."""
-        return self._handle.inv_mass_matrix()
+        return self._handle.inv_mass_matrix(None)
 
-    def coriolis_and_gravity_forces(self) -> NDArray[np.float64]:
+    def coriolis_and_gravity_forces(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Coriolis, centrifugal and gravity forces, shape (ndofs,), N m or N."""
-        return self._handle.coriolis_and_gravity_forces()
+        return self._handle.coriolis_and_gravity_forces(out)
 
     @property
     def c(self) -> NDArray[np.float64]:
         """Coriolis, centrifugal and gravity forces, shape (ndofs,), N m or N."""
-        return self._handle.coriolis_and_gravity_forces()
+        return self._handle.coriolis_and_gravity_forces(None)
 
-    def constraint_forces(self) -> NDArray[np.float64]:
+    def constraint_forces(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Generalized forces of contacts, limits and constraints in the last step, shape (ndofs,), N m or N."""
-        return self._handle.constraint_forces()
+        return self._handle.constraint_forces(out)
 
     def forces(self) -> Any:
         """What was last passed to set_forces(), the same object; zeros before. It stays after the step that used it."""
-        return self._like.copy() if self._tau is None else self._tau
+        return self._pattern.copy() if self._tau is None else self._tau
 
     def set_forces(self, _tau: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized forces of the next step, shape (ndofs,), N m or N; or some by name, the others zero."""
@@ -415,9 +419,9 @@ class Skeleton:
         self._handle.set_forces(tau)
         self._tau = tau
 
-    def commands(self) -> SkelVector:
+    def commands(self, out: SkelVector | None = None) -> SkelVector:
         """Commands to the actuators, shape (ndofs,), in the unit of each joint's actuator type. A copy."""
-        return self._handle.commands(self._like)
+        return self._handle.commands(self._pattern if out is None else out)
 
     def set_commands(self, _commands: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the commands of the next step, shape (ndofs,), or some by name.
@@ -429,7 +433,7 @@ class Skeleton:
     @property
     def comms(self) -> SkelVector:
         """Commands to the actuators, shape (ndofs,). A copy."""
-        return self._handle.commands(self._like)
+        return self._handle.commands(self._pattern)
 
     @comms.setter
     def comms(self, commands: ArrayLike) -> None:
@@ -467,14 +471,14 @@ class Skeleton:
 
     # Centre of mass
 
-    def com(self) -> NDArray[np.float64]:
+    def com(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Centre of mass, world frame, shape (3,), m."""
-        return self._handle.com()
+        return self._handle.com(out)
 
     @property
     def C(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
         """Centre of mass, world frame, shape (3,), m."""
-        return self._handle.com()
+        return self._handle.com(None)
 
     def com_velocity(self) -> NDArray[np.float64]:
         """Velocity of the centre of mass, world frame, shape (3,), m/s."""
@@ -513,7 +517,7 @@ class Skeleton:
             if by_name:
                 raise TypeError("give a whole vector or entries by name, not both")
             return values
-        vector = getattr(self, rest) if rest else self._like.copy()
+        vector = getattr(self, rest) if rest else self._pattern.copy()
         for name, value in {**(values or {}), **by_name}.items():
             vector[name] = value
         return vector

@@ -208,9 +208,9 @@ class World:
         self._handle.check_collision()
         self.collision_result.update()
 
-    def states(self) -> NDArray[np.float64]:
-        """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,)."""
-        return self._handle.states()
+    def states(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
+        """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,); in `out` if that is given."""
+        return self._handle.states(out)
 
     def set_states(self, _x: ArrayLike) -> None:
         """Set [q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,)."""
@@ -219,7 +219,7 @@ class World:
     @property
     def x(self) -> NDArray[np.float64]:
         """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,)."""
-        return self._handle.states()
+        return self._handle.states(None)
 
     @x.setter
     def x(self, x: ArrayLike) -> None:

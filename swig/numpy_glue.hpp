@@ -21,7 +21,8 @@ struct ErrorIsSet
 {
 };
 
-/// A fresh ndarray that a method fills; with set_like(v), one with the type and names of v.
+/// The ndarray that a method fills: a fresh one, or after use(o) what the caller passed. That is a pattern for a fresh
+/// one with the same names if it is a named vector that is read-only, else the array to fill.
 class NumpyOutput : public Output
 {
 public:
@@ -30,22 +31,27 @@ public:
   NumpyOutput& operator=(const NumpyOutput&) = delete;
   ~NumpyOutput() override { Py_XDECREF(array_); }
 
-  void set_like(PyObject* like) { like_ = like; }
+  void use(PyObject* passed) { passed_ = passed == Py_None ? nullptr : passed; }
 
   double* vector(long size) override
   {
     npy_intp shape = size;
-    Py_XSETREF(array_, like_ ? named_vector::new_like(like_) : PyArray_SimpleNew(1, &shape, NPY_DOUBLE));
-    if (array_ != nullptr && PyArray_DIM(as_array(), 0) != size)
+    if (passed_ == nullptr)
+      return keep(PyArray_SimpleNew(1, &shape, NPY_DOUBLE));
+    if (!named_vector::is_pattern(passed_))
+      return keep(to_fill(1, &shape));
+    double* values = keep(named_vector::new_like(passed_));
+    if (PyArray_DIM(as_array(array_), 0) != size) {
       PyErr_SetString(PyExc_ValueError, "the skeleton's dofs have changed; call its build()");
-    return data();
+      throw ErrorIsSet{};
+    }
+    return values;
   }
 
   double* matrix(long rows, long cols) override
   {
     npy_intp shape[] = {rows, cols};
-    Py_XSETREF(array_, PyArray_SimpleNew(2, shape, NPY_DOUBLE));
-    return data();
+    return keep(passed_ == nullptr ? PyArray_SimpleNew(2, shape, NPY_DOUBLE) : to_fill(2, shape));
   }
 
   PyObject* release()
@@ -56,17 +62,31 @@ public:
   }
 
 private:
-  PyArrayObject* as_array() const { return reinterpret_cast<PyArrayObject*>(array_); }
+  static PyArrayObject* as_array(PyObject* object) { return reinterpret_cast<PyArrayObject*>(object); }
 
-  double* data()
+  double* keep(PyObject* array)
   {
-    if (array_ == nullptr || PyErr_Occurred())
+    Py_XSETREF(array_, array);
+    if (array_ == nullptr)
       throw ErrorIsSet{};
-    return static_cast<double*>(PyArray_DATA(as_array()));
+    return static_cast<double*>(PyArray_DATA(as_array(array_)));
+  }
+
+  /// The passed array (new reference) if it has this shape and float64 in C order; null with an error set otherwise.
+  PyObject* to_fill(int ndim, const npy_intp* shape) const
+  {
+    auto* array = as_array(passed_);
+    const bool usable = PyArray_Check(passed_) && PyArray_TYPE(array) == NPY_DOUBLE && PyArray_ISCARRAY(array);
+    if (usable && PyArray_NDIM(array) == ndim && PyArray_CompareLists(PyArray_DIMS(array), shape, ndim))
+      return Py_NewRef(passed_);
+    const std::string size = std::to_string(shape[0]) + (ndim == 1 ? "," : ", " + std::to_string(shape[1]));
+    PyErr_Format(
+        PyExc_ValueError, "out needs to be a writeable float64 array in C order of shape (%s)", size.c_str());
+    return nullptr;
   }
 
   PyObject* array_ = nullptr;
-  PyObject* like_ = nullptr;
+  PyObject* passed_ = nullptr;
 };
 
 /// Releases the interpreter lock for the time of a long call.

@@ -7,11 +7,14 @@ struct VectorIn;
 struct MatrixIn;
 }
 
-// Results that an engine method writes straight into a fresh ndarray.
+// Results that an engine method writes straight into an ndarray: a fresh one; one with the names of a pattern, or the
+// one that is passed; the one that is passed unless that is None (numpy_glue.hpp).
 %typemap(in, numinputs=0) pydart2::Output& out (pydart2::python::NumpyOutput numpy) "$1 = &numpy;"
-// The same with the names of the vector that is passed in.
-%typemap(in) pydart2::Output& like (pydart2::python::NumpyOutput numpy) { numpy.set_like($input); $1 = &numpy; }
-%typemap(argout) pydart2::Output& out, pydart2::Output& like {
+%typemap(in) pydart2::Output& like (pydart2::python::NumpyOutput numpy), pydart2::Output& into (pydart2::python::NumpyOutput numpy) {
+  numpy.use($input);
+  $1 = &numpy;
+}
+%typemap(argout) pydart2::Output& out, pydart2::Output& like, pydart2::Output& into {
   Py_DECREF($result);
   $result = numpy$argnum.release();
 }

@@ -30,13 +30,14 @@ FLAT = {"verbose=True": "verbose: bool = True", "tuple of int": "tuple[int, ...]
 
 HEAD = '''"""The C++ layer: one handle per engine object. Made by tools/make_stub.py."""
 
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.indexing import Names
-from pydart2.skel_vector import SkelVector
+
+Vector = TypeVar("Vector", bound=NDArray[np.float64])
 
 class NamedVector(np.ndarray[tuple[int], np.dtype[np.float64]]):
     _names: Names | None
@@ -56,7 +57,7 @@ def argument(declaration: str) -> tuple[str, str]:
     if kind.endswith("Handle&"):
         return name, kind.removeprefix("const ").removesuffix("&")
     if kind == "Output&":
-        return name, "SkelVector"
+        return name, {"like": "Vector", "into": "NDArray[np.float64] | None"}.get(name, "")
     if kind.endswith("*"):
         return name, "ArrayLike | None"
     return name, ARGUMENTS.get(kind, "ArrayLike")
@@ -77,8 +78,10 @@ def method(line: str) -> str | None:
     if "out" in arguments:
         python_result = "NDArray[np.float64]"
         del arguments["out"]
+    if "into" in arguments:
+        python_result = "NDArray[np.float64]"
     if "like" in arguments:
-        python_result = "SkelVector"
+        python_result = "Vector"
     parameters = [] if (qualifier or "").strip() == "static" else ["self"]
     parameters += [f"{key}: {kind}" for key, kind in arguments.items()]
     decorator = "    @staticmethod\n" if (qualifier or "").strip() == "static" else ""

@@ -196,9 +196,9 @@ bool BodyNodeHandle::set_restitution_coeff(double coefficient)
   return each_contact_shape(*body_, [&](auto& aspect) { aspect.setRestitutionCoeff(coefficient); });
 }
 
-Eigen::Matrix4d BodyNodeHandle::transform() const
+void BodyNodeHandle::transform(Output& into) const
 {
-  return body_->getWorldTransform().matrix();
+  matrix(into, 4, 4) = body_->getWorldTransform().matrix();
 }
 
 Eigen::Matrix4d BodyNodeHandle::relative_transform() const
@@ -325,55 +325,55 @@ void BodyNodeHandle::write(const BodyNode& body, const Columns& dependent, bool 
     J.col(static_cast<long>(body.getDependentGenCoordIndex(static_cast<std::size_t>(i)))) = dependent.col(i);
 }
 
-void BodyNodeHandle::jacobian(const Eigen::Vector3d* offset, bool full, Output& out) const
+void BodyNodeHandle::jacobian(const Eigen::Vector3d* offset, bool full, Output& into) const
 {
   const BodyNode& body = *body_;
   if (offset == nullptr)
-    write(body, body.getJacobian(), full, out);
+    write(body, body.getJacobian(), full, into);
   else
-    write(body, body.getJacobian(*offset), full, out);
+    write(body, body.getJacobian(*offset), full, into);
 }
 
-void BodyNodeHandle::world_jacobian(const Eigen::Vector3d* offset, bool full, Output& out) const
+void BodyNodeHandle::world_jacobian(const Eigen::Vector3d* offset, bool full, Output& into) const
 {
   const BodyNode& body = *body_;
   if (offset == nullptr)
-    write(body, body.getWorldJacobian(), full, out);
+    write(body, body.getWorldJacobian(), full, into);
   else
-    write(body, body.getWorldJacobian(*offset), full, out);
+    write(body, body.getWorldJacobian(*offset), full, into);
 }
 
-void BodyNodeHandle::linear_jacobian(const Eigen::Vector3d* offset, bool full, Output& out) const
+void BodyNodeHandle::linear_jacobian(const Eigen::Vector3d* offset, bool full, Output& into) const
 {
   const BodyNode& body = *body_;
   if (offset == nullptr)
-    write(body, body.getWorldJacobian().bottomRows<3>(), full, out);
+    write(body, body.getWorldJacobian().bottomRows<3>(), full, into);
   else
-    write(body, body.getLinearJacobian(*offset), full, out);
+    write(body, body.getLinearJacobian(*offset), full, into);
 }
 
-void BodyNodeHandle::angular_jacobian(bool full, Output& out) const
+void BodyNodeHandle::angular_jacobian(bool full, Output& into) const
 {
   const BodyNode& body = *body_;
-  write(body, body.getWorldJacobian().topRows<3>(), full, out);
+  write(body, body.getWorldJacobian().topRows<3>(), full, into);
 }
 
-void BodyNodeHandle::linear_jacobian_deriv(const Eigen::Vector3d* offset, bool full, Output& out) const
+void BodyNodeHandle::linear_jacobian_deriv(const Eigen::Vector3d* offset, bool full, Output& into) const
 {
   const BodyNode& body = *body_;
-  write(body, body.getLinearJacobianDeriv(offset == nullptr ? origin : *offset), full, out);
+  write(body, body.getLinearJacobianDeriv(offset == nullptr ? origin : *offset), full, into);
 }
 
-void BodyNodeHandle::world_jacobian_classic_deriv(const Eigen::Vector3d* offset, bool full, Output& out) const
+void BodyNodeHandle::world_jacobian_classic_deriv(const Eigen::Vector3d* offset, bool full, Output& into) const
 {
   const BodyNode& body = *body_;
-  write(body, body.getJacobianClassicDeriv(offset == nullptr ? origin : *offset), full, out);
+  write(body, body.getJacobianClassicDeriv(offset == nullptr ? origin : *offset), full, into);
 }
 
-void BodyNodeHandle::angular_jacobian_deriv(bool full, Output& out) const
+void BodyNodeHandle::angular_jacobian_deriv(bool full, Output& into) const
 {
   const BodyNode& body = *body_;
-  write(body, body.getAngularJacobianDeriv(), full, out);
+  write(body, body.getAngularJacobianDeriv(), full, into);
 }
 
 } // namespace pydart2

@@ -60,7 +60,7 @@ public:
   bool set_friction_coeff(double coefficient);
   bool set_restitution_coeff(double coefficient);
 
-  Eigen::Matrix4d transform() const;
+  void transform(Output& into) const;
   Eigen::Matrix4d relative_transform() const;
   Eigen::Vector3d to_world(const Eigen::Vector3d* offset) const;
   Eigen::Vector3d to_local(const Eigen::Vector3d& point) const;
@@ -86,13 +86,13 @@ public:
   void add_ext_torque(const Eigen::Vector3d& torque, bool local);
   void set_ext_torque(const Eigen::Vector3d& torque, bool local);
 
-  void jacobian(const Eigen::Vector3d* offset, bool full, Output& out) const;
-  void world_jacobian(const Eigen::Vector3d* offset, bool full, Output& out) const;
-  void linear_jacobian(const Eigen::Vector3d* offset, bool full, Output& out) const;
-  void angular_jacobian(bool full, Output& out) const;
-  void world_jacobian_classic_deriv(const Eigen::Vector3d* offset, bool full, Output& out) const;
-  void linear_jacobian_deriv(const Eigen::Vector3d* offset, bool full, Output& out) const;
-  void angular_jacobian_deriv(bool full, Output& out) const;
+  void jacobian(const Eigen::Vector3d* offset, bool full, Output& into) const;
+  void world_jacobian(const Eigen::Vector3d* offset, bool full, Output& into) const;
+  void linear_jacobian(const Eigen::Vector3d* offset, bool full, Output& into) const;
+  void angular_jacobian(bool full, Output& into) const;
+  void world_jacobian_classic_deriv(const Eigen::Vector3d* offset, bool full, Output& into) const;
+  void linear_jacobian_deriv(const Eigen::Vector3d* offset, bool full, Output& into) const;
+  void angular_jacobian_deriv(bool full, Output& into) const;
 
   /// For the C++ of this layer.
   dart::dynamics::BodyNode& body() const { return *body_; }

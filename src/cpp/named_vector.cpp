@@ -164,6 +164,11 @@ PyObject* make_type()
   return Py_NewRef(made);
 }
 
+bool is_pattern(PyObject* object)
+{
+  return is_named_vector(object) && !PyArray_ISWRITEABLE(reinterpret_cast<PyArrayObject*>(object));
+}
+
 PyObject* new_like(PyObject* like)
 {
   PyObject* names = is_named_vector(like) ? valid_names(like) : nullptr;

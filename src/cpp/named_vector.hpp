@@ -11,6 +11,9 @@ namespace pydart2::named_vector {
 /// Makes the type; null with a Python error set. NumPy's C API must be imported.
 PyObject* make_type();
 
+/// Whether it is a named vector that is read-only: it stands for its names only.
+bool is_pattern(PyObject* object);
+
 /// A new float64 vector of the type and with the names of `like`; null with a Python error set.
 PyObject* new_like(PyObject* like);
 

@@ -35,6 +35,7 @@ SkeletonHandle::SkeletonHandle(WorldRef world, SkeletonRef skeleton)
   : skeleton_(world, skeleton, skeleton->skeleton.get()),
     dofs_(skeleton->skeleton->getDofs()),
     state_(*skeleton->skeleton),
+    mass_matrix_(*skeleton->skeleton),
     scratch_(static_cast<long>(dofs_.size()))
 {
 }
@@ -223,10 +224,10 @@ void SkeletonHandle::set_commands(const VectorIn& commands)
   skeleton().setCommands(per_dof(commands, "commands"));
 }
 
-void SkeletonHandle::states(Output& out) const
+void SkeletonHandle::states(Output& into) const
 {
   skeleton_.get();
-  double* state = out.vector(2 * static_cast<long>(dofs_.size()));
+  double* state = into.vector(2 * static_cast<long>(dofs_.size()));
   for (const auto* places : {&state_.positions, &state_.velocities})
     for (const double* place : *places)
       *state++ = *place;
@@ -281,22 +282,23 @@ void SkeletonHandle::force_upper_limits(Output& out) const
   each_dof(out, [](const DegreeOfFreedom& dof) { return dof.getForceUpperLimit(); });
 }
 
-void SkeletonHandle::mass_matrix(Output& out) const
+void SkeletonHandle::mass_matrix(Output& into)
 {
-  const Eigen::MatrixXd& M = skeleton().getMassMatrix();
+  skeleton_.get();
+  const Eigen::MatrixXd& M = mass_matrix_.update();
   // M is symmetric, so its columns are its rows.
-  std::copy(M.data(), M.data() + M.size(), out.matrix(M.rows(), M.cols()));
+  std::copy(M.data(), M.data() + M.size(), into.matrix(M.rows(), M.cols()));
 }
 
-void SkeletonHandle::inv_mass_matrix(Output& out) const
+void SkeletonHandle::inv_mass_matrix(Output& into) const
 {
   const Eigen::MatrixXd& inverse = skeleton().getInvMassMatrix();
-  matrix(out, inverse.rows(), inverse.cols()) = inverse;
+  matrix(into, inverse.rows(), inverse.cols()) = inverse;
 }
 
-void SkeletonHandle::coriolis_and_gravity_forces(Output& out) const
+void SkeletonHandle::coriolis_and_gravity_forces(Output& into) const
 {
-  copy(skeleton().getCoriolisAndGravityForces(), out);
+  copy(skeleton().getCoriolisAndGravityForces(), into);
 }
 
 void SkeletonHandle::coriolis_forces(Output& out) const
@@ -314,9 +316,9 @@ void SkeletonHandle::external_forces(Output& out) const
   copy(skeleton().getExternalForces(), out);
 }
 
-void SkeletonHandle::constraint_forces(Output& out) const
+void SkeletonHandle::constraint_forces(Output& into) const
 {
-  copy(skeleton().getConstraintForces(), out);
+  copy(skeleton().getConstraintForces(), into);
 }
 
 dart::dynamics::Skeleton& SkeletonHandle::with_mass() const
@@ -327,9 +329,9 @@ dart::dynamics::Skeleton& SkeletonHandle::with_mass() const
   return skeleton;
 }
 
-Eigen::Vector3d SkeletonHandle::com() const
+void SkeletonHandle::com(Output& into) const
 {
-  return with_mass().getCOM();
+  vector(into, 3) = with_mass().getCOM();
 }
 
 Eigen::Vector3d SkeletonHandle::com_velocity() const

@@ -10,11 +10,13 @@
 #include "dof_state.hpp"
 #include "joint.hpp"
 #include "marker.hpp"
+#include "mass_matrix.hpp"
 #include "part.hpp"
 
 namespace pydart2 {
 
-/// dart::dynamics::Skeleton. A vector over the dofs comes out as a vector "like" the one passed in (same names).
+/// dart::dynamics::Skeleton. A vector over the dofs comes out as a vector "like" the one passed in: new with the same
+/// names if that is a pattern (named_vector.hpp), else written to it.
 class SkeletonHandle
 {
 public:
@@ -54,7 +56,7 @@ public:
   void set_commands(const VectorIn& commands);
 
   /// [q, dq].
-  void states(Output& out) const;
+  void states(Output& into) const;
   void set_states(const VectorIn& states);
 
   /// q1 - q2 and dq1 - dq2 on the configuration manifold.
@@ -66,15 +68,15 @@ public:
   void force_lower_limits(Output& out) const;
   void force_upper_limits(Output& out) const;
 
-  void mass_matrix(Output& out) const;
-  void inv_mass_matrix(Output& out) const;
-  void coriolis_and_gravity_forces(Output& out) const;
+  void mass_matrix(Output& into);
+  void inv_mass_matrix(Output& into) const;
+  void coriolis_and_gravity_forces(Output& into) const;
   void coriolis_forces(Output& out) const;
   void gravity_forces(Output& out) const;
   void external_forces(Output& out) const;
-  void constraint_forces(Output& out) const;
+  void constraint_forces(Output& into) const;
 
-  Eigen::Vector3d com() const;
+  void com(Output& into) const;
   Eigen::Vector3d com_velocity() const;
   Eigen::Vector3d com_acceleration() const;
   Vector6d com_spatial_velocity() const;
@@ -109,6 +111,7 @@ private:
   Part<dart::dynamics::Skeleton, dart::dynamics::Skeleton*> skeleton_; // SkeletonRecord owns it
   std::vector<dart::dynamics::DegreeOfFreedom*> dofs_;
   DofState state_;
+  MassMatrix mass_matrix_;
   Eigen::VectorXd scratch_;
 };
 

@@ -263,10 +263,10 @@ void WorldHandle::check_collision()
   pydart2::check_collision(*record_);
 }
 
-void WorldHandle::states(Output& out) const
+void WorldHandle::states(Output& into) const
 {
   const auto& record = world();
-  write_states(record, out.vector(num_states(record)));
+  write_states(record, into.vector(num_states(record)));
 }
 
 void WorldHandle::set_states(const VectorIn& states)

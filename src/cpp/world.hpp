@@ -52,7 +52,7 @@ public:
   void check_collision();
 
   /// [q, dq] of each skeleton, one after another.
-  void states(Output& out) const;
+  void states(Output& into) const;
   void set_states(const VectorIn& states);
 
   /// "dart", "fcl", "bullet" or "ode".

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 import pydart2
 
-from .models import DOWN, creature, make_world
+from .models import DOWN, creature, free_body, make_world
 
 Vector = NDArray[np.float64]
 NDOFS = 16
@@ -116,24 +116,75 @@ def test_jacobians_agree(skel: pydart2.Skeleton, q: Vector, name: str, point: Ve
     np.testing.assert_allclose(body.expand_jacobian(body.linear_jacobian(point, False)), world[3:], atol=1e-12)
 
 
-@few
-@given(q=vectors, dq=vectors)
-def test_mass_matrix_is_the_sum_over_bodies(skel: pydart2.Skeleton, q: Vector, dq: Vector) -> None:
-    skel.q, skel.dq = q, dq
-    total = np.zeros((NDOFS, NDOFS))
-    kinetic = 0.0
+def summed_mass_matrix(skel: pydart2.Skeleton) -> Vector:
+    """M by its definition: the sum over the bodies of m J^T J + W^T I W, I about the COM in world axes."""
+    total = np.zeros((skel.ndofs, skel.ndofs))
     for body in skel.bodynodes:
         R = body.T[:3, :3]
         J, W = body.linear_jacobian(body.local_com()), body.angular_jacobian()
         total += body.m * J.T @ J + W.T @ R @ body.I @ R.T @ W
-        w = W @ dq
-        kinetic += body.m * body.dC @ body.dC / 2 + w @ R @ body.I @ R.T @ w / 2
+    return total
+
+
+@few
+@given(q=vectors, dq=vectors)
+def test_mass_matrix_is_the_sum_over_bodies(skel: pydart2.Skeleton, q: Vector, dq: Vector) -> None:
+    skel.q, skel.dq = q, dq
     M = skel.M
-    np.testing.assert_allclose(M, total, atol=1e-11)
+    kinetic = 0.0
+    for body in skel.bodynodes:
+        R = body.T[:3, :3]
+        w = body.angular_jacobian() @ dq
+        kinetic += body.m * body.dC @ body.dC / 2 + w @ R @ body.I @ R.T @ w / 2
+    np.testing.assert_allclose(M, summed_mass_matrix(skel), atol=1e-11)
     np.testing.assert_array_equal(M, M.T)
     assert np.linalg.eigvalsh(M).min() > 0
     np.testing.assert_allclose(M @ skel.invM, np.eye(NDOFS), atol=1e-8)
     assert dq @ M @ dq / 2 == pytest.approx(kinetic, rel=1e-11, abs=1e-12)
+
+
+TILTED = np.array([[0.0, -1, 0, 0.3], [1, 0, 0, -0.2], [0, 0, 1, 0.1], [0, 0, 0, 1]])
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda skel: skel.body("foot").set_mass(7.0),
+        lambda skel: skel.body("head").set_inertia(np.diag([0.9, 0.8, 0.7])),
+        lambda skel: skel.body("tail").set_local_com([0.4, 0.3, -0.2]),
+        lambda skel: skel.joint("thigh_joint").set_axis([0.0, 0.0, 1.0]),
+        lambda skel: skel.joint("foot_joint").set_axis([1.0, 0.0, 0.0]),
+        lambda skel: skel.joint("hand_joint").set_axis1([0.0, 0.0, 1.0]),
+        lambda skel: skel.joint("tail_joint").set_axis_order("ZYX"),
+        lambda skel: skel.joint("head_joint").set_transform_from_parent_body_node(TILTED),
+        lambda skel: skel.joint("head_joint").set_transform_from_child_body_node(TILTED),
+        lambda skel: skel.set_root_joint_to_trans_and_euler(),
+        lambda skel: skel.set_root_joint_to_weld(),
+        lambda skel: skel.set_positions(np.linspace(-1, 1, NDOFS)),
+        lambda skel: skel.dof(8).set_position(0.7),
+        lambda skel: skel.world.set_states(np.linspace(1, -1, 2 * NDOFS)),
+        lambda skel: (skel.set_velocities(np.ones(NDOFS)), skel.world.step(20)),
+    ],
+)
+def test_mass_matrix_follows_every_change(tmp_path: Path, change: Callable[[pydart2.Skeleton], object]) -> None:
+    skel = make_world(tmp_path, creature()).skeletons[0]
+    skel.q = np.linspace(-0.5, 0.8, NDOFS)
+    before = skel.M
+    change(skel)
+    M = skel.M
+    assert M.shape != before.shape or not np.allclose(M, before)
+    np.testing.assert_allclose(M, summed_mass_matrix(skel), atol=1e-11)
+
+
+def test_mass_matrix_of_two_trees(tmp_path: Path) -> None:
+    """Two roots in one skeleton: no coupling between their dofs."""
+    parts = [creature(), free_body(mass=3.0)]
+    inner = "".join(part.split(">", 1)[1].rsplit("<", 1)[0] for part in parts)
+    skel = make_world(tmp_path, f'<skeleton name="two">{inner}</skeleton>').skeletons[0]
+    assert len(skel.root_bodynodes()) == 2
+    skel.q = np.linspace(-0.5, 0.8, skel.ndofs)
+    np.testing.assert_allclose(skel.M, summed_mass_matrix(skel), atol=1e-11)
+    np.testing.assert_array_equal(skel.M[:NDOFS, NDOFS:], 0.0)
 
 
 @few
