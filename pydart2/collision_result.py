@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,23 @@ if TYPE_CHECKING:
 _COLUMNS = 16  # contact.hpp
 
 
+class _Contacts:
+    """What one collision pass found; objects are made when someone wants them."""
+
+    def __init__(self, world: World, rows: NDArray[np.float64]) -> None:
+        self.world = world
+        self.rows = rows
+
+    @cached_property
+    def contacts(self) -> list[Contact]:
+        return [Contact(self.world, row) for row in self.rows]
+
+    @cached_property
+    def bodies(self) -> list[BodyNode]:
+        bodies = (body for c in self.contacts for body in (c.bodynode1, c.bodynode2) if body is not None)
+        return list(dict.fromkeys(bodies))
+
+
 class CollisionResult:
     """The contacts of the last step; read from the engine when someone looks.
 
@@ -26,29 +44,25 @@ class CollisionResult:
         Id of the world.
     """
 
-    _rows: NDArray[np.float64] | None  # None until someone looks
-    _contacts: list[Contact] | None
-    _bodies: list[BodyNode] | None
-
     def __init__(self, _world: World) -> None:
         self.world = _world
         self.id = _world.id
-        self._set_rows(np.empty((0, _COLUMNS)))
+        self._looked: _Contacts | None = _Contacts(_world, np.empty((0, _COLUMNS)))  # None until someone looks
 
     @classmethod
     def from_rows(cls, _world: World, rows: NDArray[np.float64]) -> CollisionResult:
         """A result with packed contacts, shape (n, 16), as of a recorded frame."""
         result = cls(_world)
-        result._set_rows(rows)
+        result._looked = _Contacts(_world, rows)
         return result
 
     def update(self) -> None:
         """Read the engine's last collision pass from now on."""
-        self._set_rows(None)
+        self._looked = None
 
     def num_contacts(self) -> int:
         """How many contacts there are."""
-        return self.world._handle.num_contacts() if self._rows is None else len(self._rows)
+        return self.world._handle.num_contacts() if self._looked is None else len(self._looked.rows)
 
     def num_contacted_bodies(self) -> int:
         """How many bodies touch another."""
@@ -58,22 +72,17 @@ class CollisionResult:
     def rows(self) -> NDArray[np.float64]:
         """The contacts as numbers, shape (n, 16), in the engine's order: point (3, m), force on the first body (3, N),
         skeleton and body id of both (4), shape id of both (2), normal (3), penetration depth (m). A copy."""
-        return self._packed().copy()
+        return self._look().rows.copy()
 
     @property
     def contacts(self) -> list[Contact]:
         """The contacts in the engine's order."""
-        if self._contacts is None:
-            self._contacts = [Contact(self.world, row) for row in self._packed()]
-        return self._contacts
+        return self._look().contacts
 
     @property
     def contacted_bodies(self) -> list[BodyNode]:
         """The bodies that touch another, each once, in the order of the contacts."""
-        if self._bodies is None:
-            bodies = (body for c in self.contacts for body in (c.bodynode1, c.bodynode2) if body is not None)
-            self._bodies = list(dict.fromkeys(bodies))
-        return self._bodies
+        return self._look().bodies
 
     @property
     def contact_sets(self) -> list[tuple[BodyNode | None, BodyNode | None]]:
@@ -82,21 +91,16 @@ class CollisionResult:
 
     def copy(self) -> CollisionResult:
         """The contacts as they are now; later steps do not change them."""
-        return CollisionResult.from_rows(self.world, self._packed())
+        return CollisionResult.from_rows(self.world, self._look().rows)
 
     def clear(self) -> None:
         """Forget the contacts."""
-        self._set_rows(np.empty((0, _COLUMNS)))
+        self._looked = _Contacts(self.world, np.empty((0, _COLUMNS)))
 
-    def _packed(self) -> NDArray[np.float64]:
-        if self._rows is None:
-            self._rows = self.world._handle.contacts()
-        return self._rows
-
-    def _set_rows(self, rows: NDArray[np.float64] | None) -> None:
-        self._rows = rows
-        self._contacts = None
-        self._bodies = None
+    def _look(self) -> _Contacts:
+        if self._looked is None:
+            self._looked = _Contacts(self.world, self.world._handle.contacts())
+        return self._looked
 
     def __repr__(self) -> str:
         return f"[CollisionResult: {self.num_contacts()} contacts {self.num_contacted_bodies()} contacted bodies]"

@@ -78,7 +78,7 @@ class Skeleton:
         if _id is None:
             raise TypeError("Skeleton() needs a file name or an id")
         self.id = _id
-        self.controller: Controller | None = None
+        self._controller: Controller | None = None
         self._tau: Any = None
         self.build()
 
@@ -122,6 +122,16 @@ class Skeleton:
         """Weld the root to the world, where it is at q = 0."""
         self._handle.set_root_joint_to_weld()
         self.build()
+
+    @property
+    def controller(self) -> Controller | None:
+        """What acts before each step, or None."""
+        return self._controller
+
+    @controller.setter
+    def controller(self, controller: Controller | None) -> None:
+        self._controller = controller
+        self.world._find_controllers()
 
     def set_controller(self, _controller: Controller | None) -> None:
         """Let a controller act before each step; None for none."""

@@ -14,7 +14,7 @@ from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError
 from pydart2.recording import Recording
 from pydart2.resources import find_model
-from pydart2.skeleton import Skeleton
+from pydart2.skeleton import Controller, Skeleton
 
 _DETECTORS = ("dart", "fcl", "bullet", "ode")
 
@@ -80,6 +80,7 @@ class World:
         self.control_skel: Skeleton | None = None
         self.recording: Recording | None = None
         self.skeletons: list[Skeleton] = []
+        self._controlled: list[tuple[Skeleton, Controller]] = []
         self.collision_result = CollisionResult(self)
         self.collision_filter = CollisionFilter(self)
         for i in range(self._handle.num_skeletons()):
@@ -110,12 +111,14 @@ class World:
         """
         skel = (CLASS or self.CLASS_SKELETON)(self, _filename=filename)
         self.skeletons.append(skel)
+        self._find_controllers()
         return skel
 
     def add_skeleton_from_id(self, _skel_id: int) -> Skeleton:
         """Make an object for a skeleton that the engine's world has already."""
         skel = self.CLASS_SKELETON(self, _id=_skel_id)
         self.skeletons.append(skel)
+        self._find_controllers()
         return skel
 
     def remove_skeleton(self, skel: Skeleton) -> None:
@@ -126,6 +129,7 @@ class World:
         self.skeletons.remove(skel)
         for i, other in enumerate(self.skeletons):
             other.id = i
+        self._find_controllers()
 
     def num_skeletons(self) -> int:
         """How many skeletons there are."""
@@ -190,18 +194,18 @@ class World:
         Before each, skeletons with a controller get the forces that it computes. Forces and external forces act in one
         step and are cleared after it.
         """
-        if any(skel.controller is not None for skel in self.skeletons):
+        if self._controlled:
             for _ in range(n):
-                self._apply_controllers()
+                for skel, controller in self._controlled:
+                    skel.tau = controller.compute()
                 self._handle.step(1)
         else:
             self._handle.step(n)
         self.collision_result.update()
 
-    def _apply_controllers(self) -> None:
-        for skel in self.skeletons:
-            if skel.controller is not None:
-                skel.tau = skel.controller.compute()
+    def _find_controllers(self) -> None:
+        """Note who acts before each step, so that step() does not have to look."""
+        self._controlled = [(s, c) for s in self.skeletons if (c := s.controller) is not None]
 
     def check_collision(self) -> None:
         """Find the contacts and their forces for the present state, without a step."""

@@ -101,7 +101,7 @@ def test_low_level_handles_keep_what_they_need() -> None:
     body, joint, dof = handle.bodynode(1), handle.joint(1), handle.dof(6)
     del handle
     gc.collect()
-    assert body.transform().shape == (4, 4) and joint.name() == "thigh_joint" and dof.position() == 0
+    assert body.transform(None).shape == (4, 4) and joint.name() == "thigh_joint" and dof.position() == 0
     """)
 
 
