@@ -126,6 +126,7 @@ inline void set_error()
     case Kind::index: PyErr_SetString(PyExc_IndexError, error.what()); break;
     case Kind::load: raise_own("LoadError", error.what()); break;
     case Kind::destroyed: raise_own("DestroyedError", error.what()); break;
+    case Kind::simulation: raise_own("SimulationError", error.what()); break;
     case Kind::engine: raise_own("PydartError", error.what()); break;
     }
   } catch (const std::bad_alloc&) {

@@ -3,11 +3,13 @@
 
 %{
 #define PY_ARRAY_UNIQUE_SYMBOL pydart2_ARRAY_API
+#include "assertions.hpp"
 #include "numpy_glue.hpp"
 %}
 
 %init %{
   import_array();
+  pydart2::make_assertions_throw();
   PyModule_AddObject(m, "NamedVector", pydart2::named_vector::make_type());
 %}
 

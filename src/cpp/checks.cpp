@@ -15,10 +15,17 @@ namespace {
   throw Error(kind, std::string(what) + " " + problem);
 }
 
+bool is_finite(double value)
+{
+  return std::abs(value) <= huge; // false for NaN
+}
+
 std::string text(double value)
 {
   std::ostringstream out;
   out << value;
+  if (std::isfinite(value) && !is_finite(value))
+    out << " (beyond " << huge << " counts as infinite)";
   return out.str();
 }
 
@@ -47,14 +54,14 @@ void shape(const MatrixIn& got, std::size_t rows, std::size_t cols, const char* 
 
 void finite(double value, const char* what)
 {
-  if (!std::isfinite(value))
+  if (!is_finite(value))
     refuse(Kind::value, what, "must be finite, got " + text(value));
 }
 
 void finite(const VectorIn& values, const char* what)
 {
   for (long i = 0; i < values.size; ++i)
-    if (!std::isfinite(values.data[i]))
+    if (!is_finite(values.data[i]))
       refuse(Kind::value, what, "must be finite, got " + text(values.data[i]) + " at index " + std::to_string(i));
 }
 
@@ -71,19 +78,19 @@ void not_nan(double value, const char* what)
 
 void positive(double value, const char* what)
 {
-  if (!std::isfinite(value) || value <= 0.0)
+  if (!is_finite(value) || value <= 0.0)
     refuse(Kind::value, what, "must be positive and finite, got " + text(value));
 }
 
 void not_negative(double value, const char* what)
 {
-  if (!std::isfinite(value) || value < 0.0)
+  if (!is_finite(value) || value < 0.0)
     refuse(Kind::value, what, "must be zero or positive, and finite, got " + text(value));
 }
 
 void rigid(const Eigen::Matrix4d& matrix, const char* what)
 {
-  if (!matrix.allFinite())
+  if (!(matrix.cwiseAbs().maxCoeff() <= huge) || matrix.hasNaN())
     refuse(Kind::value, what, "must be finite");
   const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
   const bool orthonormal = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6;
@@ -101,7 +108,7 @@ void direction(const Eigen::Vector3d& vector, const char* what)
 
 void inertia(const Eigen::Matrix3d& matrix, const char* what)
 {
-  if (!matrix.allFinite())
+  if (!(matrix.cwiseAbs().maxCoeff() <= huge) || matrix.hasNaN())
     refuse(Kind::value, what, "must be finite");
   if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > 1e-9 * matrix.cwiseAbs().maxCoeff())
     refuse(Kind::value, what, "must be symmetric");

@@ -9,6 +9,9 @@
 /// What DART would answer with an abort or with nonsense is refused here, with what was asked, expected and got.
 namespace pydart2::check {
 
+/// Numbers beyond this count as infinite: the engine's products of them would be.
+constexpr double huge = 1e30;
+
 /// `index` in 0 .. count-1, as a size; IndexError otherwise.
 std::size_t index(long index, std::size_t count, const char* what);
 
@@ -18,7 +21,7 @@ void size(long got, std::size_t expected, const char* what);
 /// The shape of a matrix; ValueError otherwise.
 void shape(const MatrixIn& got, std::size_t rows, std::size_t cols, const char* what);
 
-/// No NaN and no infinity; ValueError otherwise.
+/// No NaN and nothing beyond `huge`; ValueError otherwise.
 void finite(double value, const char* what);
 void finite(const VectorIn& values, const char* what);
 void finite(const Eigen::Vector3d& values, const char* what);

@@ -6,6 +6,8 @@
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/ShapeNode.hpp>
 
+#include "stepping.hpp"
+
 namespace pydart2 {
 
 namespace {
@@ -64,7 +66,7 @@ void check_collision(WorldRecord& world)
       values[i] = skeleton.getDof(i)->getConstraintImpulse();
     impulses.push_back(values);
   }
-  world.world->getConstraintSolver()->solve();
+  solve_constraints(world, world.world->getTime());
   for (std::size_t s = 0; s < world.skeletons.size(); ++s) {
     auto& skeleton = *world.skeletons[s]->skeleton;
     skeleton.clearConstraintImpulses();

@@ -6,7 +6,7 @@
 namespace pydart2 {
 
 /// The Python exception that an Error becomes (swig/exceptions.i).
-enum class Kind { value, type, index, load, destroyed, engine };
+enum class Kind { value, type, index, load, destroyed, simulation, engine };
 
 /// The one exception that this layer throws: a sentence for a person, and what it is in Python.
 class Error : public std::runtime_error

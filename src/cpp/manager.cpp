@@ -10,10 +10,8 @@ namespace {
 
 void end(WorldRecord& world)
 {
-  {
-    Busy claim(world); // refuses a world that another thread is stepping
-  }
-  world.state.store(WorldRecord::State::destroyed);
+  Busy claim(world); // refuses a world that another thread is stepping
+  claim.destroy();
   world.recording.set_enabled(false);
   world.constraints.clear();
   world.ignored_pairs.clear();

@@ -15,6 +15,7 @@
 #include "errors.hpp"
 #include "loading.hpp"
 #include "manager.hpp"
+#include "stepping.hpp"
 
 namespace pydart2 {
 
@@ -250,8 +251,7 @@ void WorldHandle::step(long count)
     throw Error(Kind::value, "the number of steps must be zero or positive, got " + std::to_string(count));
   Busy busy(*record_);
   for (long i = 0; i < count; ++i) {
-    record_->world->step();
-    ++record_->frame;
+    advance(*record_);
     if (record_->recording.enabled())
       record(*record_);
   }

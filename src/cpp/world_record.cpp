@@ -27,10 +27,10 @@ int WorldRecord::index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) cons
   return -1;
 }
 
-void WorldRecord::refuse() const
+void WorldRecord::refuse(State seen) const
 {
   const std::string name = "world " + std::to_string(id);
-  if (state.load() == State::busy)
+  if (seen == State::busy)
     throw Error(Kind::engine, name + " is in use by another thread; give each thread a world of its own");
   throw Error(Kind::destroyed, name + " was destroyed by destroy() or by a later init(); make a new World");
 }
@@ -39,7 +39,7 @@ Busy::Busy(WorldRecord& world) : world_(world)
 {
   auto expected = WorldRecord::State::ready;
   if (!world.state.compare_exchange_strong(expected, WorldRecord::State::busy))
-    world.check();
+    world.refuse(expected); // not world.check(): the other thread may be done by now
 }
 
 } // namespace pydart2

@@ -11,6 +11,8 @@
 
 namespace pydart2 {
 
+class StateWatch; // stepping.cpp
+
 /// A skeleton of a world, shared by all handles into it.
 struct SkeletonRecord
 {
@@ -18,6 +20,8 @@ struct SkeletonRecord
 
   /// Counts changes of the tree: a handle to a body, joint or dof made before the last one is refused.
   int structure = 0;
+
+  std::shared_ptr<StateWatch> watch = nullptr;
 };
 using SkeletonRef = std::shared_ptr<SkeletonRecord>;
 
@@ -39,12 +43,16 @@ struct WorldRecord
   /// Throws unless this world may be used now.
   void check() const
   {
-    if (state.load(std::memory_order_acquire) != State::ready)
-      refuse();
+    const State seen = state.load(std::memory_order_acquire);
+    if (seen != State::ready)
+      refuse(seen);
   }
 
   /// Changes when skeletons are removed or get another tree, so that the states of an earlier frame no longer fit.
   int layout() const;
+
+  /// Throws what a state other than ready means.
+  [[noreturn]] void refuse(State seen) const;
 
   /// Index of a skeleton in this world, -1 if it is not in it.
   int index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const;
@@ -59,8 +67,6 @@ struct WorldRecord
   int removals = 0; ///< Skeletons that were removed, and the changes of their trees.
   Recording recording;
 
-private:
-  [[noreturn]] void refuse() const;
 };
 using WorldRef = std::shared_ptr<WorldRecord>;
 
@@ -69,12 +75,16 @@ class Busy
 {
 public:
   explicit Busy(WorldRecord& world);
-  ~Busy() { world_.state.store(WorldRecord::State::ready, std::memory_order_release); }
+  ~Busy() { world_.state.store(after_, std::memory_order_release); }
   Busy(const Busy&) = delete;
   Busy& operator=(const Busy&) = delete;
 
+  /// The world is destroyed when this call ends.
+  void destroy() { after_ = WorldRecord::State::destroyed; }
+
 private:
   WorldRecord& world_;
+  WorldRecord::State after_ = WorldRecord::State::ready;
 };
 
 } // namespace pydart2
