@@ -134,12 +134,12 @@ def _add_ball_joint_constraint(
 
 def _positions(handle: SkeletonHandle) -> NDArray[np.float64]:
     """Generalized positions, rad or m."""
-    return handle.states()[: handle.num_dofs()]
+    return handle.states(None)[: handle.num_dofs()]
 
 
 def _velocities(handle: SkeletonHandle) -> NDArray[np.float64]:
     """Generalized velocities, rad/s or m/s."""
-    return handle.states()[handle.num_dofs() :]
+    return handle.states(None)[handle.num_dofs() :]
 
 
 def _accelerations(handle: SkeletonHandle) -> NDArray[np.float64]:
@@ -205,7 +205,9 @@ def _function(row: Row) -> Callable[..., Any]:
     doc = row.doc or (call.__doc__ if method.startswith("_") else _doc(owner, method))
     if names[-1:] == ["out"]:
         call = _filling(row.name, call, *([False] if owner == "bodynode" else []))  # Jacobians over the dependent dofs
-    elif names[-1:] in (["nout"], ["ndofs"]):
+    elif steps and (steps[-1][0], method) in _FRESH:
+        call = _fresh(call)
+    if names[-1:] in (["nout"], ["ndofs"]):
         call = _sized(row.name, call)
 
     def function(*args: Any, **kwargs: Any) -> Any:
@@ -254,15 +256,24 @@ def _filling(name: str, call: Callable[..., NDArray[np.float64]], *more: Any) ->
     """Write the result into the last argument."""
 
     def fill(*args: Any) -> None:
-        out = args[-1]
-        values = call(*args[:-1], *more)
-        if not isinstance(out, np.ndarray) or out.dtype != np.float64:
-            raise TypeError(f"{name}() fills an array of float64, got {out!r}")
-        if out.shape != values.shape:
-            raise ValueError(f"{name}() fills an array of shape {values.shape}, got {out.shape}")
-        out[:] = values
+        if not isinstance(args[-1], np.ndarray):  # None would be a fresh array
+            raise TypeError(f"{name}() fills an array of float64, got {args[-1]!r}")
+        call(*args[:-1], *more, args[-1])
 
     return fill
+
+
+#: The other methods that are told by their last argument what to fill; None stands for a fresh array.
+_FRESH = {
+    (SkeletonHandle, "com"),
+    (SkeletonHandle, "coriolis_and_gravity_forces"),
+    (SkeletonHandle, "constraint_forces"),
+    (BodyNodeHandle, "transform"),
+}
+
+
+def _fresh(call: Callable[..., NDArray[np.float64]]) -> Callable[..., NDArray[np.float64]]:
+    return lambda *args: call(*args, None)
 
 
 def _sized(name: str, call: Callable[..., NDArray[np.float64]]) -> Callable[..., NDArray[np.float64]]:

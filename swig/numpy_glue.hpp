@@ -76,12 +76,16 @@ private:
   PyObject* to_fill(int ndim, const npy_intp* shape) const
   {
     auto* array = as_array(passed_);
-    const bool usable = PyArray_Check(passed_) && PyArray_TYPE(array) == NPY_DOUBLE && PyArray_ISCARRAY(array);
-    if (usable && PyArray_NDIM(array) == ndim && PyArray_CompareLists(PyArray_DIMS(array), shape, ndim))
+    if (!PyArray_Check(passed_) || PyArray_TYPE(array) != NPY_DOUBLE) {
+      PyErr_Format(PyExc_TypeError, "out needs to be an array of float64, got %R", passed_);
+      return nullptr;
+    }
+    if (PyArray_ISCARRAY(array) && PyArray_NDIM(array) == ndim && PyArray_CompareLists(PyArray_DIMS(array), shape, ndim))
       return Py_NewRef(passed_);
     const std::string size = std::to_string(shape[0]) + (ndim == 1 ? "," : ", " + std::to_string(shape[1]));
-    PyErr_Format(
-        PyExc_ValueError, "out needs to be a writeable float64 array in C order of shape (%s)", size.c_str());
+    PyObject* got = PyObject_GetAttrString(passed_, "shape");
+    PyErr_Format(PyExc_ValueError, "out needs to be writeable, in C order and of shape (%s), got %S", size.c_str(), got);
+    Py_XDECREF(got);
     return nullptr;
   }
 

@@ -402,6 +402,30 @@ def test_a_skeleton_without_bodies(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("attribute", ["q", "dq", "tau"])
+@pytest.mark.parametrize("size", [1e8, 1e160, 1e300])
+def test_huge_numbers(tmp_path: Path, attribute: str, size: float) -> None:
+    """The simulation may become useless, and then says so; Python goes on."""
+    survives(
+        tmp_path,
+        f"""
+        world = make_world(folder, creature(), floor())
+        skel = world.skeletons[0]
+        try:
+            for _ in range(20):
+                skel.{attribute} = np.full(16, {size})
+                world.step()
+                world.x, skel.M, skel.C
+            assert np.all(np.isfinite(world.x)), "not finite and not said"
+        except (pydart2.SimulationError, ValueError):
+            pass
+        world.reset()
+        world.step()
+        assert np.all(np.isfinite(world.x))
+        """,
+    )
+
+
 def test_two_threads_on_one_world(tmp_path: Path) -> None:
     """The second is told so; the first goes on."""
     world = make_world(tmp_path, arm(6))

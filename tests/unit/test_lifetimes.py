@@ -171,7 +171,7 @@ def test_stale_handles_after_the_tree_changed(change: str) -> None:
                 pass
         assert got, thing
     refused(handle.num_dofs)
-    refused(lambda: handle.positions(skel._like))
+    refused(lambda: handle.positions(skel._pattern))
     vector["thigh_joint"] = 1.0
     skel.body("hand").T, skel.M, skel.q
     del old, handle

@@ -93,7 +93,7 @@ def test_soft_bodies(tmp_path: Path) -> None:
 def test_what_the_engine_refuses_in_a_step_names_the_fastest_dof(fullbody: pydart2.World) -> None:
     """Self-collision of a model whose bodies overlap: contacts push with all they have."""
     fullbody.skeletons[1].set_self_collision_check(True)
-    with pytest.raises(SimulationError, match="of dof 'j_.*' in skeleton 'fullbody1'"):
+    with pytest.raises(SimulationError, match=r"of dof 'j_.*' in skeleton 'fullbody1'"):
         fullbody.step(1000)
     read_everything(fullbody)
     fullbody.skeletons[1].set_self_collision_check(False)
