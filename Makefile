@@ -37,4 +37,4 @@ setup:
 	@tools/setup.sh
 
 clean:
-	rm -rf build $(VENV) *.egg-info pydart2/pydart2_api.py pydart2/pydart2_api.pyi pydart2/_pydart2_api.*.so
+	rm -rf build $(VENV) *.egg-info pydart2/pydart2_api.py pydart2/pydart2_api.pyi pydart2/_pydart2_api.*.so pydart2/_try_load

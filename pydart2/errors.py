@@ -10,7 +10,29 @@ class PydartError(RuntimeError):
 
 
 class LoadError(PydartError, OSError):
-    """A model file that is missing or cannot be read."""
+    """A model file that is missing or cannot be read.
+
+    Attributes
+    ----------
+    path : str or None
+        The file; None if it is a text that has none.
+    line : int or None
+        Where in it, from 1, if that is known.
+    reason : str
+        Why, without the place.
+    """
+
+    path: str | None = None
+    line: int | None = None
+    reason: str = ""
+
+    @classmethod
+    def at(cls, path: str | None, line: int | None, reason: str) -> LoadError:
+        """An error that says the place and the reason."""
+        place = repr(path) if path else "the XML text"
+        error = cls(f"cannot load {place}{f', line {line}' if line else ''}: {reason}")
+        error.path, error.line, error.reason = path, line, reason
+        return error
 
 
 class SimulationError(PydartError):

@@ -33,9 +33,9 @@ from pydart2._native import (
 )
 from pydart2.flat_drawing import FUNCTIONS as DRAWING
 from pydart2.flat_table import ROWS, Row
+from pydart2.loading import read_model
 from pydart2.manager import set_verbose as _set_verbose  # noqa: F401 (named in the table)
 from pydart2.manager import verbose as _verbose  # noqa: F401
-from pydart2.resources import find_model
 
 # The worlds that the flat functions made; those of World objects are kept alive by whoever made them.
 _owned: dict[int, WorldHandle] = {}
@@ -69,7 +69,7 @@ def _create_world(timestep: float) -> int:
 
 def _create_world_from_skel(path: str) -> int:
     """Make the world of a SKEL file; returns its id. LoadError if the file is missing or cannot be read."""
-    return _own(WorldHandle.load(find_model(path)))
+    return _own(read_model(path).load_world())
 
 
 def _destroy_world(handle: WorldHandle) -> None:
@@ -84,8 +84,8 @@ def _own(handle: WorldHandle) -> int:
 
 
 def _add_skeleton(handle: WorldHandle, path: str) -> int:
-    """Load a URDF, SDF, SKEL or VSK file; returns the skeleton's id. A World object needs add_skeleton_from_id()."""
-    return handle.add_skeleton(find_model(path))
+    """Load a URDF, SDF, SKEL, MJCF or VSK file; returns its id. A World object needs add_skeleton_from_id()."""
+    return read_model(path).add_to(handle)
 
 
 def _step(handle: WorldHandle) -> None:

@@ -63,7 +63,7 @@ class Skeleton:
     def __init__(
         self,
         _world: World,
-        _filename: str | os.PathLike[str] | None = None,
+        _filename: str | bytes | os.PathLike[str] | None = None,
         _id: int | None = None,
         _friction: float | None = None,
     ) -> None:
@@ -71,10 +71,11 @@ class Skeleton:
         self.friction = _friction
         self.filename: str | None = None
         if _filename is not None:
-            from pydart2.resources import find_model
+            from pydart2.loading import read_model
 
-            self.filename = find_model(_filename)
-            _id = _world._handle.add_skeleton(self.filename)
+            model = read_model(_filename)
+            self.filename = model.document.path
+            _id = model.add_to(_world._handle)
         if _id is None:
             raise TypeError("Skeleton() needs a file name or an id")
         self.id = _id

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -12,8 +13,8 @@ from pydart2._native import WorldHandle
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError
+from pydart2.loading import Missing, Options, Source, read_model
 from pydart2.recording import Recording
-from pydart2.resources import find_model
 from pydart2.skeleton import Controller, Skeleton
 
 _DETECTORS = ("dart", "fcl", "bullet", "ode")
@@ -36,10 +37,13 @@ class World:
     step
         Time step, s.
     skel_path
-        A SKEL file with a world; from the current folder, else among the package's models. Without it the world is
-        empty and its gravity is (0, -9.81, 0).
+        A file with a world (SKEL, SDF, MJCF, URDF world), from the current folder, else among the package's models; or
+        a URI, or the XML itself (a str that begins with ``<``, or bytes). A file with a skeleton alone gives a world
+        with that. Without it the world is empty. The gravity is the file's, or (0, -9.81, 0).
     xmlstr
-        Whether `skel_path` is not a path but the SKEL text itself.
+        Whether `skel_path` is the XML itself, however it begins.
+    packages, missing_meshes, safe
+        As in `add_skeleton`.
 
     Attributes
     ----------
@@ -56,7 +60,7 @@ class World:
     Raises
     ------
     LoadError
-        If the file is missing or cannot be read.
+        If the file is missing or cannot be read: says file, line and reason.
     """
 
     DART_COLLISION_DETECTOR: ClassVar[int] = 0
@@ -67,15 +71,27 @@ class World:
     #: The class of the skeletons that the world makes.
     CLASS_SKELETON: ClassVar[type[Skeleton]] = Skeleton
 
-    def __init__(self, step: float, skel_path: str | os.PathLike[str] | None = None, xmlstr: bool = False) -> None:
-        if skel_path is None:
+    def __init__(
+        self,
+        step: float,
+        skel_path: Source | None = None,
+        xmlstr: bool = False,
+        *,
+        packages: Mapping[str, str | os.PathLike[str]] | None = None,
+        missing_meshes: Missing = "error",
+        safe: bool | None = None,
+    ) -> None:
+        model = skel_path
+        if model is not None:
+            model = read_model(model, Options(packages, missing_meshes, safe, text=xmlstr))
+        if model is not None and model.has_world:
+            self._handle = model.load_world()
+            self._handle.set_time_step(step)
+        else:
             self._handle = WorldHandle(step)
             self._handle.set_gravity([0.0, -9.81, 0.0])
-        elif xmlstr:
-            self._handle = WorldHandle.load_text(os.fspath(skel_path))
-        else:
-            self._handle = WorldHandle.load(find_model(skel_path))
-        self._handle.set_time_step(step)
+        if model is not None and not model.has_world:
+            model.add_to(self._handle)
         self.id: int = self._handle.id()
         self.control_skel: Skeleton | None = None
         self.recording: Recording | None = None
@@ -94,22 +110,42 @@ class World:
 
     # Skeletons
 
-    def add_skeleton(self, filename: str | os.PathLike[str], CLASS: type[Skeleton] | None = None) -> Skeleton:  # noqa: N803
-        """Load a URDF, SDF, SKEL or VSK file and add its skeleton.
+    def add_skeleton(
+        self,
+        filename: Source,
+        CLASS: type[Skeleton] | None = None,  # noqa: N803
+        *,
+        packages: Mapping[str, str | os.PathLike[str]] | None = None,
+        missing_meshes: Missing = "error",
+        safe: bool | None = None,
+    ) -> Skeleton:
+        """Load a URDF, SDF, SKEL, MJCF or VSK file and add its skeleton.
 
         Parameters
         ----------
         filename
-            From the current folder, else among the package's models.
+            From the current folder, else among the package's models; or a URI (``file://``, ``package://``,
+            ``dart://sample/``), or the XML itself (a str that begins with ``<``, or bytes).
         CLASS
             Class of the skeleton; default `CLASS_SKELETON`.
+        packages
+            Package name → folder, for the ``package://`` URIs in the file. Others are looked for in ROS_PACKAGE_PATH,
+            then in the folders above the file.
+        missing_meshes
+            ``"error"``: a missing mesh of a collision shape is a LoadError; ``"warn"``: the shape is left out, with a
+            warning, as visual shapes always are.
+        safe
+            Whether to try the file in a helper process first, so that what crashes the engine's parsers is a
+            LoadError and does not end Python. None: unless the file is one of the package's own.
 
         Raises
         ------
         LoadError
-            If the file is missing or cannot be read.
+            If the file is missing or cannot be read: says file, line and reason.
         """
-        skel = (CLASS or self.CLASS_SKELETON)(self, _filename=filename)
+        self._handle.time()  # a world that is gone says so before the file is read
+        model = read_model(filename, Options(packages, missing_meshes, safe))
+        skel = (CLASS or self.CLASS_SKELETON)(self, _filename=model)
         self.skeletons.append(skel)
         self._find_controllers()
         return skel

@@ -1,9 +1,11 @@
-// Every call: a C++ exception becomes the Python exception of its kind (numpy_glue.hpp, errors.hpp).
+// Every call: what the engine prints goes to Python's logging, and a C++ exception becomes the Python exception of its kind (numpy_glue.hpp, errors.hpp).
 %exception {
   try {
+    pydart2::messages::Listening listening;
     $action
   } catch (...) {
     pydart2::python::set_error();
     SWIG_fail;
   }
+  pydart2::python::log_messages();
 }

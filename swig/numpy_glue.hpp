@@ -11,6 +11,7 @@
 
 #include "arrays.hpp"
 #include "errors.hpp"
+#include "messages.hpp"
 #include "named_vector.hpp"
 
 /// What the typemaps call: NumPy in, NumPy out, exceptions across.
@@ -117,6 +118,26 @@ inline void raise_own(const char* name, const char* message)
   Py_XDECREF(module);
 }
 
+/// Hands what the engine printed to Python's logging (pydart2/messages.py). An error that is set stays so.
+inline void log_messages()
+{
+  if (!messages::any())
+    return;
+  PyObject *type, *value, *traceback;
+  PyErr_Fetch(&type, &value, &traceback);
+  PyObject* module = PyImport_ImportModule("pydart2.messages");
+  for (const auto& [level, text] : messages::take()) {
+    PyObject* message = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
+    PyObject* done = module && message ? PyObject_CallMethod(module, "log", "iO", static_cast<int>(level), message) : nullptr;
+    if (done == nullptr)
+      PyErr_WriteUnraisable(module); // a handler that fails must not fail the call
+    Py_XDECREF(done);
+    Py_XDECREF(message);
+  }
+  Py_XDECREF(module);
+  PyErr_Restore(type, value, traceback);
+}
+
 /// Turns the C++ exception that is being handled into a Python one.
 inline void set_error()
 {
@@ -140,6 +161,7 @@ inline void set_error()
   } catch (...) {
     raise_own("PydartError", "the engine threw something unknown");
   }
+  log_messages();
 }
 
 /// The object as a C-contiguous float64 array (new reference); null with TypeError set, naming the argument.

@@ -10,6 +10,7 @@
 %init %{
   import_array();
   pydart2::make_assertions_throw();
+  pydart2::messages::install();
   PyModule_AddObject(m, "NamedVector", pydart2::named_vector::make_type());
 %}
 
@@ -25,6 +26,7 @@
 %include "soft_body.i"
 %include "bodynode.i"
 %include "skeleton.i"
+%include "model_source.i"
 %include "world.i"
 
 %pythoncode %{

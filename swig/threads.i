@@ -2,17 +2,18 @@
 %define %long_call(METHOD)
 %exception METHOD {
   try {
+    pydart2::messages::Listening listening;
     pydart2::python::WithoutGil without_gil;
     $action
   } catch (...) {
     pydart2::python::set_error();
     SWIG_fail;
   }
+  pydart2::python::log_messages();
 }
 %enddef
 
 %long_call(pydart2::WorldHandle::load)
-%long_call(pydart2::WorldHandle::load_text)
 %long_call(pydart2::WorldHandle::add_skeleton)
 %long_call(pydart2::WorldHandle::step)
 %long_call(pydart2::WorldHandle::check_collision)

@@ -1,7 +1,7 @@
 """Writes the typed stub of the extension: python make_stub.py HEADERS... STUB.
 
-Its classes are those of the headers that SWIG wraps: every public method of a class that ends in Handle is declared on
-lines of its own there. Its functions are those of pydart2/flat_table.py.
+Its classes are those of the headers that SWIG wraps: every public method of a class that ends in Handle, and of
+ModelSource, is declared on lines of its own there. Its functions are those of pydart2/flat_table.py.
 """
 
 from __future__ import annotations
@@ -56,6 +56,8 @@ def argument(declaration: str) -> tuple[str, str]:
     kind = kind.strip()
     if kind.endswith("Handle&"):
         return name, kind.removeprefix("const ").removesuffix("&")
+    if kind == "const ModelSource&":
+        return name, "ModelSource"
     if kind == "Output&":
         return name, {"like": "Vector", "into": "NDArray[np.float64] | None"}.get(name, "")
     if kind.endswith("*"):
@@ -94,10 +96,12 @@ def classes(header: str) -> list[str]:
     text = re.sub(r"\(([^()]*)\)", lambda m: "(" + " ".join(m.group(1).split()) + ")", text)
     text = re.sub(r"\(\s*\n\s*", "(", text)
     stubs = []
-    for name, body in re.findall(r"class (\w+Handle)\n\{\npublic:\n(.*?)\n(?:private:|\};)", text, re.DOTALL):
+    for name, body in re.findall(
+        r"class (\w+Handle|ModelSource)\n\{\npublic:\n(.*?)\n(?:private:|\};)", text, re.DOTALL
+    ):
         methods = [stub for line in body.splitlines() if (stub := method(line))]
         shown = [m for m in methods if "::" not in m and "Ref" not in m and "ShapeHandle, node: " not in m]
-        shown = [m for m in shown if "__init__" not in m or name == "WorldHandle"]
+        shown = [m for m in shown if "__init__" not in m or name in ("WorldHandle", "ModelSource")]
         stubs.append(f"class {name}:\n" + "\n".join(shown) + "\n")
     return stubs
 

@@ -1,17 +1,15 @@
 #pragma once
 
 #include <dart/simulation/World.hpp>
-#include <string>
+
+#include "model_source.hpp"
 
 namespace pydart2 {
 
-/// The world of a SKEL file; LoadError if it cannot be read.
-dart::simulation::WorldPtr load_world(const std::string& path);
+/// The world of a SKEL, SDF, URDF world or MJCF source; LoadError with the engine's reason if there is none.
+dart::simulation::WorldPtr load_world(const ModelSource& source);
 
-/// The world of a SKEL text.
-dart::simulation::WorldPtr load_world_text(const std::string& xml);
-
-/// The skeleton of a URDF, SDF, SKEL or VSK file, by extension; LoadError if it cannot be read.
-dart::dynamics::SkeletonPtr load_skeleton(const std::string& path);
+/// The skeleton of a SKEL, SDF, URDF, MJCF or VSK source; LoadError with the engine's reason if there is none.
+dart::dynamics::SkeletonPtr load_skeleton(const ModelSource& source);
 
 } // namespace pydart2

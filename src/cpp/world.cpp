@@ -15,6 +15,7 @@
 #include "errors.hpp"
 #include "loading.hpp"
 #include "manager.hpp"
+#include "messages.hpp"
 #include "stepping.hpp"
 
 namespace pydart2 {
@@ -117,20 +118,16 @@ void write_contacts(const std::vector<double>& rows, Output& out)
 void restart()
 {
   Manager::instance().restart();
+  messages::forget();
 }
 
 WorldHandle::WorldHandle(dart::simulation::WorldPtr world) : record_(Manager::instance().add(std::move(world))) {}
 
 WorldHandle::WorldHandle(double time_step) : WorldHandle(make_world(time_step)) {}
 
-WorldHandle WorldHandle::load(const std::string& skel_path)
+WorldHandle WorldHandle::load(const ModelSource& source)
 {
-  return WorldHandle(load_world(skel_path));
-}
-
-WorldHandle WorldHandle::load_text(const std::string& skel_xml)
-{
-  return WorldHandle(load_world_text(skel_xml));
+  return WorldHandle(load_world(source));
 }
 
 WorldHandle WorldHandle::find(long id)
@@ -161,10 +158,10 @@ SkeletonHandle WorldHandle::skeleton(long index) const
   return {record_, skeletons[check::index(index, skeletons.size(), "skeleton")]};
 }
 
-int WorldHandle::add_skeleton(const std::string& path)
+int WorldHandle::add_skeleton(const ModelSource& source)
 {
   Busy busy(*record_);
-  auto skeleton = load_skeleton(path);
+  auto skeleton = load_skeleton(source);
   record_->world->addSkeleton(skeleton);
   record_->skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton}));
   return static_cast<int>(record_->skeletons.size()) - 1;

@@ -5,12 +5,13 @@
 
 #include "arrays.hpp"
 #include "bodynode.hpp"
+#include "model_source.hpp"
 #include "skeleton.hpp"
 #include "world_record.hpp"
 
 namespace pydart2 {
 
-/// Ends all worlds and starts ids at 0 again.
+/// Ends all worlds, starts ids at 0 again and forgets which messages came already.
 void restart();
 
 /// dart::simulation::World, its contacts and its recording.
@@ -20,9 +21,8 @@ public:
   /// An empty world with DART's own gravity.
   explicit WorldHandle(double time_step);
 
-  /// The world of a SKEL file.
-  static WorldHandle load(const std::string& skel_path);
-  static WorldHandle load_text(const std::string& skel_xml);
+  /// The world of a model source that has one.
+  static WorldHandle load(const ModelSource& source);
 
   /// The world of an id, if it lives.
   static WorldHandle find(long id);
@@ -33,8 +33,8 @@ public:
   int num_skeletons() const;
   SkeletonHandle skeleton(long index) const;
 
-  /// Loads a URDF, SDF, SKEL or VSK skeleton; returns its index.
-  int add_skeleton(const std::string& path);
+  /// Adds the skeleton of a model source; returns its index.
+  int add_skeleton(const ModelSource& source);
   void remove_skeleton(long index);
 
   double time() const;

@@ -359,11 +359,6 @@ def test_missing_and_wrong_files(tmp_path: Path) -> None:
             load(tmp_path / "nothing.skel")
         with pytest.raises(LoadError, match=str(tmp_path)):
             load(tmp_path)
-    for name in ("model.xyz", "urdf", "model", "model.urdf.txt"):
-        path = tmp_path / name
-        path.write_text("<robot name='r'><link name='l'/></robot>")
-        with pytest.raises(LoadError, match=r"cannot load .*unknown extension '.*'; known are .urdf .sdf .skel .vsk"):
-            world.add_skeleton(path)
 
 
 def survives(folder: Path, code: str) -> None:
@@ -378,28 +373,10 @@ def survives(folder: Path, code: str) -> None:
 
 
 def test_a_skeleton_without_bodies(tmp_path: Path) -> None:
-    """SDF allows it."""
+    """SDF allows it; there is nothing to simulate."""
     (tmp_path / "empty.sdf").write_text("<sdf version='1.4'><model name='nothing'/></sdf>")
-    survives(
-        tmp_path,
-        """
-        world = pydart2.World(0.001)
-        skel = world.add_skeleton(folder / "empty.sdf")
-        assert (skel.ndofs, skel.nbodies, skel.q.shape, skel.M.shape, skel.m) == (0, 0, (0,), (0, 0), 0)
-        world.step()
-        for change in (skel.set_root_joint_to_weld, skel.set_root_joint_to_trans_and_euler):
-            try:
-                change()
-                raise AssertionError(change)
-            except ValueError as error:
-                assert "needs a skeleton with a body; 'nothing' has none" in str(error)
-        for read in (skel.com, skel.com_velocity, skel.com_acceleration):
-            try:
-                read()
-            except (ValueError, pydart2.PydartError):
-                pass
-        """,
-    )
+    with pytest.raises(LoadError, match="skeleton 'nothing' has no bodies"):
+        pydart2.World(0.001).add_skeleton(tmp_path / "empty.sdf")
 
 
 @pytest.mark.parametrize("attribute", ["q", "dq", "tau"])

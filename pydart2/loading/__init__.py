@@ -1,0 +1,265 @@
+"""Loading models: from a path, a URI or a text; checked, and tried in a helper process, before the engine reads them.
+
+>>> world.add_skeleton("robot.urdf", packages={"robot_description": "/opt/robots/description"})
+
+The format is known by the root element: ``<skel>``, ``<sdf>``, ``<robot>`` (URDF), ``<world>`` (URDF world),
+``<mujoco>`` (MJCF), ``<KinematicModel>`` (VSK).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from pydart2._native import ModelSource, WorldHandle
+from pydart2.errors import LoadError
+from pydart2.loading import files
+from pydart2.loading.checks import check, relevant, rules_of
+from pydart2.loading.rules import URDF, URDF_WORLD, Rules
+from pydart2.loading.trial import try_model
+from pydart2.loading.xml import Document, Element, parse
+from pydart2.resources import data_folder, find_model
+
+Missing = Literal["error", "warn"]
+Source = str | bytes | os.PathLike[str]
+
+MAX_INCLUDE_DEPTH = 8
+_log = logging.getLogger("pydart2")
+
+
+@dataclass
+class Options:
+    """How to load.
+
+    Attributes
+    ----------
+    packages
+        Package name → folder, for ``package://name/…`` and ``model://name/…``. Others are looked for in
+        ROS_PACKAGE_PATH, then in the folders above the file.
+    missing_meshes
+        What to do when the mesh of a collision shape is missing: ``"error"`` raises LoadError, ``"warn"`` leaves the
+        shape out. Visual shapes without their mesh are always left out, with a warning.
+    safe
+        Whether to try the file in a helper process first, so that a crash of the engine's parsers is a LoadError.
+        None: unless it is one of the package's own models.
+    text
+        Whether the source is a text even if it does not begin with ``<``.
+    """
+
+    packages: Mapping[str, str | os.PathLike[str]] | None = None
+    missing_meshes: Missing = "error"
+    safe: bool | None = None
+    text: bool = False
+
+
+@dataclass
+class Model:
+    """A file that was read and checked, ready for the engine. As a path, it is that of its file."""
+
+    document: Document
+    rules: Rules
+    source: ModelSource
+    safe: bool
+    files: list[str] = field(default_factory=list)
+
+    def __fspath__(self) -> str:
+        return self.document.path or ""
+
+    @property
+    def has_world(self) -> bool:
+        """Whether it is a world; a world can hold several skeletons, and has a gravity."""
+        root = self.document.root
+        return root.tag in ("mujoco", "world") or root.find("world") is not None
+
+    @property
+    def has_skeleton(self) -> bool:
+        """Whether add_skeleton() takes it."""
+        root = self.document.root
+        return root.tag != "world" and not (
+            root.tag in ("skel", "sdf") and root.find("skeleton" if root.tag == "skel" else "model") is None
+        )
+
+    def load_world(self) -> WorldHandle:
+        """A new world with the content of the file."""
+        if not self.has_world:
+            raise self.document.error(self.document.root, "it has no world")
+        self._try(world=True)
+        with self._located():
+            return WorldHandle.load(self.source)
+
+    def add_to(self, world: WorldHandle) -> int:
+        """Add the skeleton to a world; returns its index there."""
+        if not self.has_skeleton:
+            what = "is a world; load it with World(step, file)" if self.has_world else "has no model"
+            raise self.document.error(self.document.root, f"it {what}")
+        self._try(world=False)
+        with self._located():
+            return world.add_skeleton(self.source)
+
+    def _try(self, world: bool) -> None:
+        reason = try_model(self.source, world, self.files) if self.safe else None
+        if reason is not None:
+            raise self._error(reason)
+
+    @contextlib.contextmanager
+    def _located(self) -> Iterator[None]:
+        """Adds the file and the line to the engine's errors."""
+        try:
+            yield
+        except LoadError as error:
+            raise self._error(str(error)) from None
+
+    def _error(self, reason: str) -> LoadError:
+        """At the line of an element that the reason names, else at that of the root."""
+        quoted = {name for names in re.findall(r"'([^']+)'|\[([^\]]+)\]", reason) for name in names if name}
+        named = (e for e in self.document.root.all() if e.attributes.get("name") in quoted)
+        return self.document.error(next(named, self.document.root), reason)
+
+
+def read_model(what: Source | Model, options: Options | None = None) -> Model:
+    """Read and check a model.
+
+    Parameters
+    ----------
+    what
+        A path (from the current folder, else among the package's models), a URI (``file://``, ``package://``,
+        ``dart://sample/``), or the XML itself: bytes, or a str that begins with ``<``.
+    options
+        How to load.
+
+    Raises
+    ------
+    LoadError
+        With file, line and reason, if it is missing or cannot be read.
+    """
+    if isinstance(what, Model):
+        return what
+    options = options or Options()
+    if options.missing_meshes not in ("error", "warn"):
+        raise ValueError(f"missing_meshes must be 'error' or 'warn', got {options.missing_meshes!r}")
+    if isinstance(what, bytes):
+        document = parse(what, None)
+    elif isinstance(what, str) and (options.text or what.lstrip("\ufeff \t\r\n").startswith("<")):
+        document = parse(what.encode("utf-8", "replace"), None)
+    else:
+        path = _path_of(os.fspath(what), options)
+        document = parse(files.read_bytes(path), path)
+    return _Builder(document, options).build()
+
+
+def _path_of(name: str, options: Options) -> str:
+    """The absolute path that a path or URI means."""
+    if "\0" in name or not name.isprintable():
+        raise LoadError(f"no file {name!r}: a path has no such characters")
+    if "://" not in name:
+        return find_model(name)
+    places = files.Places(os.getcwd(), _folders(options))
+    path = places.find(name) or next((p for p in places.candidates(name) if os.path.isfile(p + ".gz")), None)
+    if path is None:
+        raise LoadError(f"no file {name!r}: {places.explain(name)}")
+    return os.path.realpath(path)
+
+
+def _folders(options: Options) -> dict[str, str]:
+    """The packages that the caller named, with absolute folders; LoadError if one is not there."""
+    folders = {name: os.path.abspath(folder) for name, folder in (options.packages or {}).items()}
+    for name, folder in folders.items():
+        if not os.path.isdir(folder):
+            raise LoadError(f"no folder {folder!r}, which packages= gives for {name!r}")
+    return folders
+
+
+class _Builder:
+    """Makes the Model of a document: checks it and what it includes, and finds its meshes."""
+
+    def __init__(self, document: Document, options: Options) -> None:
+        self.main = document
+        self.options = options
+        self.rules = rules_of(document)
+        self.path = document.path or os.path.join(os.getcwd(), "text.xml")
+        self.places = files.Places(os.path.dirname(self.path), _folders(options))
+        self.source = ModelSource(self.rules.kind, self.path)
+        self.source.set_lenient(options.missing_meshes == "warn")
+        self.documents: dict[str, Document] = {}
+        self.files: list[str] = []
+
+    def build(self) -> Model:
+        self._add(self.path, self.main, ())
+        self._settle_meshes()
+        for path, document in self.documents.items():
+            self.source.add_text(path, _for_the_engine(document).decode())
+        own = self.main.path is not None and self.path.startswith(str(data_folder().resolve()) + os.sep)
+        safe = self.options.safe if self.options.safe is not None else not own
+        return Model(self.main, self.rules, self.source, safe, self.files)
+
+    def _add(self, path: str, document: Document, above: tuple[str, ...]) -> None:
+        """Check a document and those that it includes."""
+        rules = URDF if self.rules is URDF_WORLD and above else self.rules
+        check(document, rules, part=rules.kind == "mjcf" and bool(above))
+        self.documents[path] = document
+        for element, name in files.includes(rules.kind, document):
+            self._include(document, element, name, (*above, path))
+
+    def _include(self, document: Document, element: Element, name: str, above: tuple[str, ...]) -> None:
+        path = self.places.find(name)
+        if path is None:
+            raise document.error(element, f"it includes {name!r}: {self.places.explain(name)}")
+        if path in above:
+            raise document.error(element, f"it includes {name!r}, which includes this file")
+        if len(above) > MAX_INCLUDE_DEPTH:
+            raise document.error(element, f"files include each other more than {MAX_INCLUDE_DEPTH} deep")
+        self._redirect(name, path)
+        if path not in self.documents:
+            self._add(path, parse(files.read_bytes(path), path), above)
+
+    def _settle_meshes(self) -> None:
+        """Tell the engine where the meshes are; take out the shapes whose mesh is missing."""
+        elements = [(element, doc) for doc in self.documents.values() for element in relevant(doc.root, self.rules)]
+        owner = dict(elements)
+        compilers = (element.get("@meshdir") for element in owner if element.tag == "compiler")
+        folder = next(filter(None, compilers), "")
+        kind = "urdf" if self.rules is URDF_WORLD else self.rules.kind
+        missing: dict[Element, Document] = {}
+        for mesh in files.meshes(kind, owner, folder):
+            path = self.places.find(mesh.uri)
+            if path is not None:
+                self.files.append(path)
+                self._redirect(mesh.uri if folder or kind != "mjcf" else "/" + mesh.uri, path)
+                continue
+            self._refuse_or_warn(owner[mesh.shape], mesh)
+            missing[mesh.shape] = owner[mesh.shape]
+            if kind == "mjcf":
+                missing[mesh.element] = owner[mesh.element]
+        for element, document in missing.items():
+            document.remove([element])
+
+    def _refuse_or_warn(self, document: Document, mesh: files.Mesh) -> None:
+        kind = "collision" if mesh.collides else "visual"
+        body = mesh.shape.ancestor("link", "body")
+        reason = f"the {kind} mesh {mesh.uri!r} of {body} is missing: {self.places.explain(mesh.uri)}"
+        if mesh.collides and self.options.missing_meshes == "error":
+            raise document.error(mesh.element, f"{reason}; with missing_meshes='warn' it is left out")
+        _log.warning("%s, line %d: %s; left out", document.path or "XML text", mesh.element.line, reason)
+
+    def _redirect(self, uri: str, path: str) -> None:
+        """Let the engine find `path` under the URI that it will ask for, and the files beside it."""
+        asked = files.composed(self.places.folder, uri)
+        if asked == "file://" + path:
+            return
+        if os.path.basename(asked) == os.path.basename(path) and os.path.dirname(asked) != "file:":
+            asked, path = os.path.dirname(asked) + "/", os.path.dirname(path) + "/"
+        self.source.add_prefix(asked, path)
+
+
+def _for_the_engine(document: Document) -> bytes:
+    """The text without what its parsers stumble over: line ends and tabs between numbers, spaces around them."""
+    data = re.sub(rb"[\t\r\n]", b" ", document.data)
+    data = re.sub(rb">\s+(?=[^<\s])", b">", re.sub(rb"(?<=[^>\s])\s+<", b"<", data))
+    if document.root.tag == "mujoco" and document.root.find("default") is None:
+        data = re.sub(rb"</mujoco\s*>\s*$", b"<default/></mujoco>", data)  # the engine aborts without one
+    return data

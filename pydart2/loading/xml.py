@@ -1,0 +1,161 @@
+"""XML with the line of each element, read by the standard library's expat within limits."""
+
+from __future__ import annotations
+
+import logging
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from xml.parsers import expat
+
+from pydart2.errors import LoadError
+
+MAX_BYTES = 32_000_000
+MAX_ELEMENTS = 500_000
+MAX_DEPTH = 200
+
+_log = logging.getLogger("pydart2")
+_TAG = re.compile(rb"""<(?:"[^"]*"|'[^']*'|[^>"'])*>""")
+
+
+@dataclass(eq=False, slots=True)
+class Element:
+    """An XML element; `start` and `end` are its first byte and the one after its last."""
+
+    tag: str
+    attributes: dict[str, str]
+    line: int
+    start: int
+    parent: Element | None = None
+    end: int = 0
+    text: str = ""
+    children: list[Element] = field(default_factory=list)
+
+    def all(self) -> Iterator[Element]:
+        """This element and all below it, in the order of the file."""
+        waiting = [self]
+        while waiting:
+            element = waiting.pop()
+            yield element
+            waiting += reversed(element.children)
+
+    def find(self, *tags: str) -> Element | None:
+        """The first element at the end of a path of tags."""
+        element: Element | None = self
+        for tag in tags:
+            element = next((child for child in element.children if child.tag == tag), None) if element else None
+        return element
+
+    def get(self, field: str) -> str | None:
+        """The text of the child `field`, or with a leading @ the attribute; None if it is not there."""
+        if field.startswith("@"):
+            return self.attributes.get(field[1:])
+        child = self.find(field)
+        return None if child is None else child.text
+
+    def ancestor(self, *tags: str) -> Element | None:
+        """The nearest element above with one of these tags."""
+        element = self.parent
+        while element is not None and element.tag not in tags:
+            element = element.parent
+        return element
+
+    def __str__(self) -> str:
+        name = self.attributes.get("name") or self.attributes.get("NAME")
+        return f"<{self.tag}>" if name is None else f"<{self.tag}> {name!r}"
+
+
+@dataclass
+class Document:
+    """A file that was read: its path (None for a text), its bytes as UTF-8, its root."""
+
+    path: str | None
+    data: bytes
+    root: Element
+
+    def error(self, element: Element | int, reason: str) -> LoadError:
+        """A LoadError at an element or a line."""
+        return LoadError.at(self.path, element if isinstance(element, int) else element.line, reason)
+
+    def remove(self, elements: list[Element]) -> None:
+        """Overwrite elements with spaces; the lines of all others stay."""
+        data = bytearray(self.data)
+        for element in elements:
+            data[element.start : element.end] = re.sub(rb"[^\n]", b" ", data[element.start : element.end])
+        self.data = bytes(data)
+
+
+def parse(data: bytes, path: str | None) -> Document:
+    """Read XML; LoadError with the line if it is not well-formed, beyond a limit, or declares entities."""
+    data = _as_utf8(data, path)
+    if not data.strip():
+        raise LoadError.at(path, None, "it is empty")
+    document = Document(path, data, Element("", {}, 0, 0))
+    _Reader(document).read()
+    return document
+
+
+def _as_utf8(data: bytes, path: str | None) -> bytes:
+    """The bytes of the same text in UTF-8, without a byte order mark."""
+    if len(data) > MAX_BYTES:
+        raise LoadError.at(path, None, f"it has {len(data)} bytes; at most {MAX_BYTES} are read")
+    declared = re.match(rb"""\s*<\?xml[^>]*?encoding\s*=\s*["']([\w.-]+)["']""", data[:200])
+    encoding = declared.group(1).decode() if declared else "utf-8"
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        encoding = "utf-16"
+    try:
+        text = data.decode("utf-8-sig" if encoding.lower() in ("utf-8", "utf8") else encoding)
+    except (LookupError, UnicodeError):
+        _log.warning("%s is not in %s, as it should be; reading it as Latin-1", path or "the XML text", encoding)
+        text = data.decode("latin-1")
+    if "\0" in text:
+        raise LoadError.at(path, text.count("\n", 0, text.index("\0")) + 1, "it is not a text: it has a zero byte")
+    return text.encode("utf-8", "replace")
+
+
+class _Reader:
+    """Makes the tree of a document from expat's calls."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.open = [document.root]
+        self.count = 0
+        self.parser = expat.ParserCreate("utf-8")
+        self.parser.buffer_text = True
+        self.parser.StartElementHandler = self.start
+        self.parser.EndElementHandler = self.end
+        self.parser.CharacterDataHandler = self.text
+        self.parser.EntityDeclHandler = self.entity
+
+    def read(self) -> None:
+        try:
+            self.parser.Parse(self.document.data, True)
+        except expat.ExpatError as error:
+            reason = expat.ErrorString(error.code)
+            raise self.document.error(error.lineno, f"the XML is not well-formed: {reason}") from None
+        self.document.root = self.document.root.children[0]
+        self.document.root.parent = None
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        line = self.parser.CurrentLineNumber
+        self.count += 1
+        if self.count > MAX_ELEMENTS:
+            raise self.document.error(line, f"it has more than {MAX_ELEMENTS} elements")
+        if len(self.open) > MAX_DEPTH:
+            raise self.document.error(line, f"its elements are nested more than {MAX_DEPTH} deep")
+        element = Element(tag, attributes, line, self.parser.CurrentByteIndex, self.open[-1])
+        self.open[-1].children.append(element)
+        self.open.append(element)
+
+    def end(self, _tag: str) -> None:
+        element = self.open.pop()
+        tag = _TAG.match(self.document.data, element.start)
+        if tag is not None and not tag[0].endswith(b"/>"):
+            tag = _TAG.match(self.document.data, self.parser.CurrentByteIndex)
+        element.end = tag.end() if tag else element.start
+
+    def text(self, text: str) -> None:
+        self.open[-1].text += text
+
+    def entity(self, name: str, *_: object) -> None:
+        raise self.document.error(self.parser.CurrentLineNumber, f"it declares the entity {name!r}; none are expanded")

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// What the engine prints during our calls, on std::cout and std::cerr, is kept for Python's logging. What other code
+/// prints goes where it went before.
+namespace pydart2::messages {
+
+/// As in Python's logging.
+enum class Level { debug = 10, info = 20, warning = 30, error = 40 };
+
+struct Message
+{
+  Level level;
+  std::string text;
+};
+
+/// Puts itself in front of std::cout and std::cerr, once; takes itself away when the process ends.
+void install();
+
+/// While one is alive, what this thread prints is kept.
+class Listening
+{
+public:
+  Listening();
+  ~Listening();
+  Listening(const Listening&) = delete;
+  Listening& operator=(const Listening&) = delete;
+
+private:
+  bool outer_;
+};
+
+/// Whether take() would give anything; costs next to nothing.
+bool any();
+
+/// The messages that this thread's calls left, oldest first. Of one that repeats (digits apart), the first ten are
+/// there, then the 100th, the 1000th, ..., which say so.
+std::vector<Message> take();
+
+/// The warnings and errors since the last take(), one after another, repeats too: the reason why a parser gave up.
+std::string problems();
+
+/// Counts repeats from zero again.
+void forget();
+
+} // namespace pydart2::messages

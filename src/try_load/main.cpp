@@ -1,0 +1,61 @@
+// Loads a model in a process of its own, where a crash of the engine's parsers does no harm, and simulates it a little.
+// Reads "world" or "skeleton" and a packed ModelSource from standard input. Exit code 0: it works; 1: standard output
+// says why not; a signal: the engine crashed, and an assertion that failed is on standard error.
+
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+#include "errors.hpp"
+#include "loading.hpp"
+#include "messages.hpp"
+
+namespace {
+
+void limit(int resource, double most)
+{
+  const rlimit both{static_cast<rlim_t>(most), static_cast<rlim_t>(most)};
+  setrlimit(resource, &both);
+}
+
+/// What every user of a model does: its mass matrix, forces and one step.
+void use(dart::simulation::World& world)
+{
+  for (std::size_t i = 0; i < world.getNumSkeletons(); ++i) {
+    world.getSkeleton(i)->getMassMatrix();
+    world.getSkeleton(i)->getCoriolisAndGravityForces();
+  }
+  world.step();
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  limit(RLIMIT_CORE, 0);
+  if (argc > 1)
+    limit(RLIMIT_CPU, std::atof(argv[1])); // seconds
+  if (argc > 2)
+    limit(RLIMIT_AS, std::atof(argv[2])); // bytes
+  std::cout.rdbuf(std::cerr.rdbuf()); // standard output is for the answer
+  pydart2::messages::install();
+  const pydart2::messages::Listening listening;
+  try {
+    std::string what;
+    std::cin >> what;
+    std::cin.get();
+    const auto source = pydart2::unpack_source(std::cin);
+    auto world = dart::simulation::World::create();
+    if (what == "world")
+      world = pydart2::load_world(source);
+    else
+      world->addSkeleton(pydart2::load_skeleton(source));
+    use(*world);
+  } catch (const std::exception& error) {
+    std::fputs(error.what(), stdout);
+    return 1;
+  }
+  return 0;
+}
