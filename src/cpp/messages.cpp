@@ -156,10 +156,6 @@ Inbox& inbox()
   return inbox;
 }
 
-/// Read at every write and set by every call: no constructor, so that an access is one instruction.
-thread_local bool listening = false;
-thread_local bool waiting = false;
-
 /// In front of a stream's own buffer: takes what a listening thread prints, passes on the rest.
 class Tap : public std::streambuf
 {
@@ -175,10 +171,10 @@ public:
 protected:
   std::streamsize xsputn(const char* text, std::streamsize size) override
   {
-    if (!listening)
+    if (!flags.listening)
       return behind_->sputn(text, size);
     inbox().write(level_, {text, static_cast<std::size_t>(size)});
-    waiting = true;
+    flags.waiting = true;
     return size;
   }
 
@@ -190,7 +186,7 @@ protected:
     return xsputn(&text, 1) == 1 ? c : traits_type::eof();
   }
 
-  int sync() override { return listening ? 0 : behind_->pubsync(); }
+  int sync() override { return flags.listening ? 0 : behind_->pubsync(); }
 
 private:
   std::ostream& stream_;
@@ -200,37 +196,24 @@ private:
 
 } // namespace
 
+__thread Flags flags;
+
 void install()
 {
   static Tap out(std::cout, Level::info);
   static Tap err(std::cerr, Level::warning);
 }
 
-Listening::Listening() : outer_(listening)
-{
-  listening = true;
-}
-
-Listening::~Listening()
-{
-  listening = outer_;
-}
-
-bool any()
-{
-  return waiting;
-}
-
 std::vector<Message> take()
 {
-  waiting = false;
+  flags.waiting = false;
   inbox().finish();
   return inbox().take();
 }
 
 std::string problems()
 {
-  if (!waiting)
+  if (!flags.waiting)
     return {};
   inbox().finish();
   return inbox().problems();

@@ -19,12 +19,19 @@ struct Message
 /// Puts itself in front of std::cout and std::cerr, once; takes itself away when the process ends.
 void install();
 
+/// Every call of ours sets and reads them: __thread and initial-exec make that one instruction each.
+struct Flags
+{
+  bool listening, waiting;
+};
+extern __thread Flags flags __attribute__((tls_model("initial-exec"), visibility("hidden")));
+
 /// While one is alive, what this thread prints is kept.
 class Listening
 {
 public:
-  Listening();
-  ~Listening();
+  Listening() : outer_(flags.listening) { flags.listening = true; }
+  ~Listening() { flags.listening = outer_; }
   Listening(const Listening&) = delete;
   Listening& operator=(const Listening&) = delete;
 
@@ -32,8 +39,11 @@ private:
   bool outer_;
 };
 
-/// Whether take() would give anything; costs next to nothing.
-bool any();
+/// Whether take() would give anything.
+inline bool any()
+{
+  return flags.waiting;
+}
 
 /// The messages that this thread's calls left, oldest first. Of one that repeats (digits apart), the first ten are
 /// there, then the 100th, the 1000th, ..., which say so.
