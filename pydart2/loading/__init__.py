@@ -159,7 +159,7 @@ def _path_of(name: str, options: Options) -> str:
     if "://" not in name:
         return find_model(name)
     places = files.Places(os.getcwd(), _folders(options))
-    path = places.find(name) or next((p for p in places.candidates(name) if os.path.isfile(p + ".gz")), None)
+    path = places.find(name, packed=True)
     if path is None:
         raise LoadError(f"no file {name!r}: {places.explain(name)}")
     return os.path.realpath(path)
@@ -193,6 +193,10 @@ class _Builder:
         self._settle_meshes()
         for path, document in self.documents.items():
             self.source.add_text(path, _for_the_engine(document).decode())
+        if self.rules.kind == "mjcf" and all(d.root.find("default") is None for d in self.documents.values()):
+            # The engine aborts without one.
+            text = _for_the_engine(self.main)
+            self.source.add_text(self.path, re.sub(rb"</mujoco\s*>\s*$", b"<default/></mujoco>", text).decode())
         own = self.main.path is not None and self.path.startswith(str(data_folder().resolve()) + os.sep)
         safe = self.options.safe if self.options.safe is not None else not own
         return Model(self.main, self.rules, self.source, safe, self.files)
@@ -206,7 +210,7 @@ class _Builder:
             self._include(document, element, name, (*above, path))
 
     def _include(self, document: Document, element: Element, name: str, above: tuple[str, ...]) -> None:
-        path = self.places.find(name)
+        path = self.places.find(name, packed=True)
         if path is None:
             raise document.error(element, f"it includes {name!r}: {self.places.explain(name)}")
         if path in above:
@@ -259,7 +263,4 @@ class _Builder:
 def _for_the_engine(document: Document) -> bytes:
     """The text without what its parsers stumble over: line ends and tabs between numbers, spaces around them."""
     data = re.sub(rb"[\t\r\n]", b" ", document.data)
-    data = re.sub(rb">\s+(?=[^<\s])", b">", re.sub(rb"(?<=[^>\s])\s+<", b"<", data))
-    if document.root.tag == "mujoco" and document.root.find("default") is None:
-        data = re.sub(rb"</mujoco\s*>\s*$", b"<default/></mujoco>", data)  # the engine aborts without one
-    return data
+    return re.sub(rb">\s+(?=[^<\s])", b">", re.sub(rb"(?<=[^>\s])\s+<", b"<", data))

@@ -56,7 +56,7 @@ def _names(element: Element) -> tuple[str, ...]:
 
 
 def _shown(name: str) -> str:
-    return f"the attribute {name[1:]!r}" if name.startswith("@") else f"<{name}>"
+    return f"the attribute {name[1:]!r}" if name.startswith("@") else f"<{name.replace('/', '><')}>"
 
 
 def _check_required(document: Document, element: Element, rules: Rules) -> None:

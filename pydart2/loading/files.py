@@ -43,11 +43,14 @@ class Places:
             for folder in filter(None, folders):
                 yield os.path.normpath(os.path.join(folder, match[2].removeprefix("sample/")))
 
-    def find(self, uri: str) -> str | None:
-        """The path of the file that a URI or relative path names; None if there is none."""
+    def find(self, uri: str, packed: bool = False) -> str | None:
+        """The path of the file that a URI or relative path names; None if there is none.
+
+        With `packed`, there may be a packed one (.gz) instead of it.
+        """
         for name in dict.fromkeys((uri, unquote(uri))):
             for path in self.candidates(name):
-                if os.path.isfile(path):
+                if os.path.isfile(path) or (packed and os.path.isfile(path + ".gz")):
                     return path
         return None
 

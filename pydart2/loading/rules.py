@@ -1,6 +1,6 @@
 """What the engine's parsers need to find in a file, format by format: without it they crash, or read garbage.
 
-A field of an element is a child, by its tag, or with a leading ``@`` an attribute. An element is named by its tag, or
+A field of an element is a child, by its tag (``a/b``: a child's child), or with a leading ``@`` an attribute. An element is named by its tag, or
 by its parent's and its own, as ``"joint/parent"``.
 """
 
@@ -61,8 +61,6 @@ SKEL = Rules(
         "skeleton/joint": ("@name", "@type", "parent", "child"),
         "inertia": ("mass",),
         "moment_of_inertia": _MOMENTS,
-        "axis": ("xyz",),
-        "axis2": ("xyz",),
         "visualization_shape": ("geometry",),
         "collision_shape": ("geometry",),
         "soft_shape": ("total_mass", "geometry"),
@@ -87,8 +85,8 @@ SKEL = Rules(
     },
     joint_types={
         **dict.fromkeys(("weld", "ball", "translational", "planar", "free"), ()),
-        **dict.fromkeys(("revolute", "prismatic", "screw"), ("axis",)),
-        "universal": ("axis", "axis2"),
+        **dict.fromkeys(("revolute", "prismatic", "screw"), ("axis/xyz",)),
+        "universal": ("axis/xyz", "axis2/xyz"),
         "euler": ("axis_order",),
     },
     numbers={
@@ -130,7 +128,6 @@ SDF = Rules(
         "visual": ("geometry",),
         "collision": ("geometry",),
         "soft_shape": ("total_mass", "geometry"),
-        "axis": ("xyz",),
         "geometry/sphere": _SPHERE,
         "geometry/box": ("size",),
         "geometry/cylinder": ("radius", "length"),
@@ -138,8 +135,8 @@ SDF = Rules(
         "geometry/mesh": ("uri",),
     },
     joint_types={
-        **dict.fromkeys(("prismatic", "revolute", "screw"), ("axis",)),
-        **dict.fromkeys(("revolute2", "universal"), ("axis", "axis2")),
+        **dict.fromkeys(("prismatic", "revolute", "screw"), ("axis/xyz",)),
+        **dict.fromkeys(("revolute2", "universal"), ("axis/xyz", "axis2/xyz")),
         "ball": (),
         "fixed": (),
     },
@@ -183,9 +180,6 @@ URDF = Rules(
         "joint/child": ("@link",),
         "visual": ("geometry",),
         "collision": ("geometry",),
-        "inertial": ("mass", "inertia"),
-        "mass": ("@value",),
-        "inertia": tuple(f"@{moment}" for moment in _MOMENTS),
         "box": ("@size",),
         "sphere": ("@radius",),
         "cylinder": ("@radius", "@length"),

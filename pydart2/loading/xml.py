@@ -47,10 +47,10 @@ class Element:
         return element
 
     def get(self, field: str) -> str | None:
-        """The text of the child `field`, or with a leading @ the attribute; None if it is not there."""
+        """The text of the child `field` (``a/b`` for a child's child), or with a leading @ the attribute, or None."""
         if field.startswith("@"):
             return self.attributes.get(field[1:])
-        child = self.find(field)
+        child = self.find(*field.split("/"))
         return None if child is None else child.text
 
     def ancestor(self, *tags: str) -> Element | None:

@@ -185,7 +185,7 @@ REFUSED = [
     ("<sdf version='1.5'><world name='w'/></sdf>", 1, "is a world"),
     ("<skel>\n<skeleton name='s'/></skel>", 2, "<skeleton> 's' needs <joint>"),
     (f"<skel>\n{SKELETON.replace('free', 'magic')}</skel>", 2, "of type 'magic'; known are weld, ball"),
-    (f"<skel>\n{SKELETON.replace('free', 'revolute')}</skel>", 2, "of type 'revolute' and needs <axis>"),
+    (f"<skel>\n{SKELETON.replace('free', 'revolute')}</skel>", 2, "of type 'revolute' and needs <axis><xyz>"),
     (
         f"<skel>\n{SKELETON.replace('<child>b', '<child>c')}</skel>",
         2,
