@@ -1,7 +1,7 @@
 """What the engine's parsers need to find in a file, format by format: without it they crash, or read garbage.
 
-A field of an element is a child, by its tag (``a/b``: a child's child), or with a leading ``@`` an attribute. An element is named by its tag, or
-by its parent's and its own, as ``"joint/parent"``.
+A field of an element is a child, by its tag (``a/b``: a child's child), or with a leading ``@`` an attribute. An
+element is named by its tag, or by its parent's and its own, as ``"joint/parent"``.
 """
 
 from __future__ import annotations
