@@ -39,6 +39,7 @@ from pydart2.shapenode import ShapeNode
 from pydart2.skel_vector import SkelVector
 from pydart2.skeleton import Skeleton
 from pydart2.softbody import SoftBodyNode
+from pydart2.state import Snapshot
 from pydart2.world import World, create_world
 
 if TYPE_CHECKING:
@@ -72,6 +73,7 @@ __all__ = [
     "SimulationError",
     "SkelVector",
     "Skeleton",
+    "Snapshot",
     "SoftBodyNode",
     "TranslationalJoint",
     "TranslationalJoint2D",

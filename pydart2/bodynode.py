@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.shapenode import ShapeNode
+from pydart2.state import part_of
 
 if TYPE_CHECKING:
     from pydart2._native import BodyNodeHandle
@@ -433,6 +434,9 @@ class BodyNode:
         full = np.zeros((dependent.shape[0], self.skeleton.ndofs))
         full[:, [dof.id for dof in self.dependent_dofs]] = dependent
         return full
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return part_of, (self.skeleton, "bodynodes", self._id)
 
     def __repr__(self) -> str:
         return f"[BodyNode({self.id}): {self.name}]"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pydart2.state import part_of
+
 if TYPE_CHECKING:
     from pydart2.joint import Joint
     from pydart2.skeleton import Skeleton
@@ -212,6 +214,9 @@ class Dof:
     def set_constraint_impulse(self, impulse: float) -> None:
         """Set the constraint impulse, N m s or N s."""
         self._handle.set_constraint_impulse(impulse)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return part_of, (self.skeleton, "dofs", self.id)
 
     def __repr__(self) -> str:
         return f"[Dof({self.id}): {self.name}]"

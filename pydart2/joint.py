@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.state import part_of
+
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
     from pydart2.dof import Dof
@@ -227,6 +229,9 @@ class Joint:
         if not 0 <= index < len(self.dofs):
             raise IndexError(f"joint {self.name!r} has {len(self.dofs)} dofs, so no dof {index}")
         return self.dofs[index]
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return part_of, (self.skeleton, "joints", self.id)
 
     def __repr__(self) -> str:
         return f"[{type(self).__name__}({self.id}): {self.name}]"

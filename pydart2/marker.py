@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.state import part_of
+
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
     from pydart2.skeleton import Skeleton
@@ -77,6 +79,9 @@ class Marker:
         from pydart2.gui import drawing
 
         drawing.draw_marker(self)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return part_of, (self.skeleton, "markers", self.id)
 
     def __repr__(self) -> str:
         return f"[Marker({self.id})]"

@@ -88,6 +88,9 @@ class Shape:
 
         drawing.draw_shape(self)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return getattr, (self.shapenode, "shape")
+
     def __repr__(self) -> str:
         return f"[{type(self).__name__}({self.bodynode.id}:{self.id})]"
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.shape import Shape, create_shape
+from pydart2.state import part_of
 
 if TYPE_CHECKING:
     from pydart2._native import ShapeNodeHandle
@@ -100,6 +101,9 @@ class ShapeNode:
     def world_transform(self) -> NDArray[np.float64]:
         """Pose of the shape in the world, shape (4, 4), m."""
         return self._handle.world_transform()
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return part_of, (self.bodynode, "shapenodes", self.id)
 
     def __repr__(self) -> str:
         return f"[ShapeNode({self.bodynode.id}:{self.id})]"

@@ -17,6 +17,7 @@ from pydart2.joint import Joint, create_joint
 from pydart2.marker import Marker
 from pydart2.skel_vector import SkelVector
 from pydart2.softbody import SoftBodyNode
+from pydart2.state import part_of
 
 if TYPE_CHECKING:
     import os
@@ -24,6 +25,11 @@ if TYPE_CHECKING:
     from pydart2.world import World
 
 Part = TypeVar("Part", BodyNode, Joint, Dof)
+
+
+# What build() makes.
+_PARTS = ("dofs", "joints", "bodynodes", "markers", "name_to_dof", "name_to_joint", "name_to_body", "names")
+_BUILT = frozenset(("world", "id", "_handle", "_like", *_PARTS))
 
 
 class Controller(Protocol):
@@ -82,6 +88,19 @@ class Skeleton:
         self._controller: Controller | None = None
         self._tau: Any = None
         self.build()
+
+    @classmethod
+    def _of_world(cls, world: World, index: int) -> Skeleton:
+        """The object for a skeleton of a world that is made again; its attributes follow (World.__reduce__)."""
+        skel = cls.__new__(cls)
+        skel.world = world
+        skel.id = index
+        skel.build()
+        return skel
+
+    def __reduce__(self) -> tuple[object, ...]:
+        kept = {name: value for name, value in self.__dict__.items() if name not in _BUILT}
+        return part_of, (self.world, "skeletons", self.id), kept
 
     def build(self) -> None:
         """Make all dofs, joints, bodies and markers anew; those made before may no longer be used."""

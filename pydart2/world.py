@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 from collections.abc import Mapping
 from typing import ClassVar
@@ -16,6 +17,7 @@ from pydart2.errors import DestroyedError
 from pydart2.loading import Missing, Options, Source, read_model
 from pydart2.recording import Recording
 from pydart2.skeleton import Controller, Skeleton
+from pydart2.state import Snapshot, model_hash
 
 _DETECTORS = ("dart", "fcl", "bullet", "ode")
 
@@ -23,6 +25,25 @@ _DETECTORS = ("dart", "fcl", "bullet", "ode")
 def create_world(step: float, skel_path: str | os.PathLike[str] | None = None) -> World:
     """A world with a time step in s, and the content of a SKEL file if one is given."""
     return World(step, skel_path)
+
+
+def _rebuild(
+    cls: type[World],
+    blueprint: tuple[list[str], list[str], NDArray[np.float64], NDArray[np.float64]],
+    contacts: NDArray[np.float64],
+    recording_limit: int | None,
+    classes: list[type[Skeleton]],
+) -> World:
+    """The world of World.__reduce__, in its own or another process."""
+    world = cls.__new__(cls)
+    world._handle = WorldHandle.rebuild(*blueprint)
+    world._begin()
+    world.skeletons = [skeleton_class._of_world(world, i) for i, skeleton_class in enumerate(classes)]
+    world.collision_result = CollisionResult.from_rows(world, contacts)
+    if recording_limit is not None:
+        world.enable_recording()
+        world._handle.set_recording_limit(recording_limit)
+    return world
 
 
 class World:
@@ -92,6 +113,13 @@ class World:
             self._handle.set_gravity([0.0, -9.81, 0.0])
         if model is not None and not model.has_world:
             model.add_to(self._handle)
+        self._begin()
+        for i in range(self._handle.num_skeletons()):
+            self.add_skeleton_from_id(i)
+        self.reset()
+        self.enable_recording()
+
+    def _begin(self) -> None:
         self.id: int = self._handle.id()
         self.control_skel: Skeleton | None = None
         self.recording: Recording | None = None
@@ -99,10 +127,6 @@ class World:
         self._controlled: list[tuple[Skeleton, Controller]] = []
         self.collision_result = CollisionResult(self)
         self.collision_filter = CollisionFilter(self)
-        for i in range(self._handle.num_skeletons()):
-            self.add_skeleton_from_id(i)
-        self.reset()
-        self.enable_recording()
 
     def destroy(self) -> None:
         """Free the world; any later use of it or of what is in it raises DestroyedError."""
@@ -264,6 +288,59 @@ class World:
     @x.setter
     def x(self, x: ArrayLike) -> None:
         self._handle.set_states(x)
+
+    # State and copies
+
+    def snapshot(self, exact: bool = False) -> Snapshot:
+        """All that a step changes and the next one depends on, for restore().
+
+        Taking it changes nothing. But the FCL and Bullet detectors remember earlier steps, in the order of the contacts
+        that they find, and so does a ball joint constraint; this memory is not in a snapshot, and restore() empties it.
+        After ``snapshot(exact=True)``, which empties it here too, the world's next steps are bit for bit those after
+        restore(), with every detector.
+        """
+        values = self._handle.snapshot(exact)
+        return Snapshot(values, self.collision_result.rows, model_hash(self._handle))
+
+    def restore(self, snapshot: Snapshot, strict: bool = True) -> None:
+        """Put the state of a snapshot back, of this world or of one with an equal model. The recording goes on.
+
+        Raises ValueError if the model is another one or has changed since: skeletons, masses, limits, gravity, time
+        step and so on. With ``strict=False`` only the number of states must fit.
+        """
+        if strict and snapshot.model != model_hash(self._handle):
+            raise ValueError(
+                f"{snapshot!r} is of another model than {self!r}, or the model has changed since; "
+                "restore(snapshot, strict=False) takes it nevertheless"
+            )
+        self._handle.restore(snapshot.values)
+        self.collision_result = CollisionResult.from_rows(self, snapshot.contacts)
+
+    def clone(self, exact: bool = False) -> World:
+        """A world of its own that is equal in everything: model, all changes to it, state, and the user's attributes.
+
+        It is made anew from the texts that were loaded, and then brought to where this one is; files of meshes must
+        still be there.
+        Controllers and attributes are deep copies that refer to the clone. The clone records if this world does, from
+        now on. For `exact` see snapshot(). ``copy.deepcopy`` does the same, and ``pickle`` does it across processes.
+
+        Raises LoadError if such a file is gone.
+        """
+        if exact:
+            self._handle.snapshot(True)
+        return copy.deepcopy(self)
+
+    def __copy__(self) -> World:
+        return self.clone()
+
+    def __reduce__(self) -> tuple[object, ...]:
+        handle = self._handle
+        blueprint = (handle.plan(), handle.model_texts(), handle.model_numbers(), handle.snapshot(False))
+        recording_limit = handle.recording_limit() if self.is_recording() else None
+        classes = [type(skel) for skel in self.skeletons]
+        made_anew = ("_handle", "id", "recording", "collision_result", "collision_filter")
+        state = {name: value for name, value in self.__dict__.items() if name not in made_anew}
+        return _rebuild, (type(self), blueprint, self.collision_result.rows, recording_limit, classes), state
 
     def gravity(self) -> NDArray[np.float64]:
         """Gravity, shape (3,), m/s²."""

@@ -263,6 +263,26 @@ inline PyObject* to_list(const std::vector<std::string>& texts)
   return list;
 }
 
+/// A list of str, as to_list() makes it. False with an error set.
+inline bool read_list(PyObject* object, const char* what, std::vector<std::string>& texts)
+{
+  PyObject* list = PySequence_Fast(object, "");
+  bool fine = list != nullptr;
+  for (Py_ssize_t i = 0; fine && i < PySequence_Fast_GET_SIZE(list); ++i) {
+    PyObject* bytes = PyUnicode_Check(PySequence_Fast_GET_ITEM(list, i))
+                          ? PyUnicode_AsEncodedString(PySequence_Fast_GET_ITEM(list, i), "utf-8", "surrogateescape")
+                          : nullptr;
+    fine = bytes != nullptr;
+    if (fine)
+      texts.emplace_back(PyBytes_AS_STRING(bytes), static_cast<std::size_t>(PyBytes_GET_SIZE(bytes)));
+    Py_XDECREF(bytes);
+  }
+  Py_XDECREF(list);
+  if (!fine)
+    PyErr_Format(PyExc_TypeError, "%s needs a list of str, got %.200R", what, object);
+  return fine;
+}
+
 /// Python's bool and int, NumPy's bool and integers. False with TypeError set.
 inline bool read_bool(PyObject* object, const char* what, bool& out)
 {

@@ -15,5 +15,7 @@
 
 %long_call(pydart2::WorldHandle::load)
 %long_call(pydart2::WorldHandle::add_skeleton)
+%long_call(pydart2::WorldHandle::clone)
+%long_call(pydart2::WorldHandle::rebuild)
 %long_call(pydart2::WorldHandle::step)
 %long_call(pydart2::WorldHandle::check_collision)

@@ -55,6 +55,10 @@ class TYPE;
 %feature("novaluewrapper") pydart2::Vector6d;
 %typemap(out) pydart2::Vector6d "$result = pydart2::python::to_numpy($1);"
 
+%typemap(in) const std::vector<std::string>& (std::vector<std::string> texts) {
+  if (!pydart2::python::read_list($input, "$1_name", texts)) SWIG_fail;
+  $1 = &texts;
+}
 %typemap(out) std::vector<std::string> "$result = pydart2::python::to_list($1);"
 
 %typemap(in) bool "if (!pydart2::python::read_bool($input, \"$1_name\", $1)) SWIG_fail;"

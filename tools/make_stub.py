@@ -24,7 +24,13 @@ RETURNS = {
     "std::vector<std::string>": "list[str]",
     "Vector6d": "NDArray[np.float64]",
 }
-ARGUMENTS = {"bool": "bool", "long": "int", "double": "float", "const std::string&": "str"}
+ARGUMENTS = {
+    "bool": "bool",
+    "long": "int",
+    "double": "float",
+    "const std::string&": "str",
+    "const std::vector<std::string>&": "list[str]",
+}
 IDS = re.compile(r"(w|sk|b|dof|j|m|s)id\d?|i|index|ndofs|nout|\w+_type")
 FLAT = {"verbose=True": "verbose: bool = True", "tuple of int": "tuple[int, ...]"}
 

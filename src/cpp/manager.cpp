@@ -27,10 +27,10 @@ Manager& Manager::instance()
   return manager;
 }
 
-WorldRef Manager::add(dart::simulation::WorldPtr world)
+WorldRef Manager::add(dart::simulation::WorldPtr world, std::string source)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  auto record = std::make_shared<WorldRecord>(next_id_++, std::move(world));
+  auto record = std::make_shared<WorldRecord>(next_id_++, std::move(world), std::move(source));
   worlds_.emplace(record->id, record);
   for (auto it = worlds_.begin(); it != worlds_.end();)
     it = it->second.expired() ? worlds_.erase(it) : std::next(it);

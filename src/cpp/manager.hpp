@@ -2,6 +2,7 @@
 
 #include <map>
 #include <mutex>
+#include <string>
 
 #include "world_record.hpp"
 
@@ -13,7 +14,8 @@ class Manager
 public:
   static Manager& instance();
 
-  WorldRef add(dart::simulation::WorldPtr world);
+  /// `source`: what it was loaded from (clone.hpp).
+  WorldRef add(dart::simulation::WorldPtr world, std::string source = {});
 
   /// The world of an id; throws if there is none.
   WorldRef find(long id);

@@ -1,11 +1,9 @@
 #include "skeleton.hpp"
 
 #include <algorithm>
-#include <dart/dynamics/EulerJoint.hpp>
-#include <dart/dynamics/TranslationalJoint.hpp>
-#include <dart/dynamics/WeldJoint.hpp>
 
 #include "checks.hpp"
+#include "root_joint.hpp"
 
 namespace pydart2 {
 
@@ -16,17 +14,6 @@ namespace {
 void copy(const Eigen::VectorXd& values, Output& out)
 {
   vector(out, values.size()) = values;
-}
-
-/// The old joint's frames: at q = 0 the skeleton stands where it stood.
-template <class Properties>
-Properties with_frames(const dart::dynamics::Joint& parent, const dart::dynamics::Joint& child, const std::string& name)
-{
-  Properties properties;
-  properties.mName = name;
-  properties.mT_ParentBodyToJoint = parent.getTransformFromParentBodyNode();
-  properties.mT_ChildBodyToJoint = child.getTransformFromChildBodyNode();
-  return properties;
 }
 
 } // namespace
@@ -386,36 +373,24 @@ void SkeletonHandle::check_tree_can_change(const char* what) const
               + "' while a constraint holds it; call world.remove_all_constraints() first");
 }
 
-void SkeletonHandle::tree_changed()
-{
-  ++skeleton_.skeleton->structure;
-}
-
 void SkeletonHandle::set_root_joint_to_trans_and_euler()
 {
-  using namespace dart::dynamics;
   check_tree_can_change("set_root_joint_to_trans_and_euler()");
-  auto& skel = skeleton();
-  BodyNode* old_root = skel.getRootBodyNode();
-  const Joint& joint = *old_root->getParentJoint();
-  auto translation = with_frames<TranslationalJoint::Properties>(joint, joint, "root_t");
-  auto rotation = with_frames<EulerJoint::Properties>(joint, joint, "root_r");
-  translation.mT_ChildBodyToJoint.setIdentity();
-  rotation.mT_ParentBodyToJoint.setIdentity();
-  BodyNode* root = skel.createJointAndBodyNodePair<TranslationalJoint>(nullptr, translation).second;
-  root->setMass(0.0);
-  old_root->moveTo<EulerJoint>(root, rotation);
-  tree_changed();
+  change_root_to_trans_and_euler(skeleton());
+  tree_changed(RootChange::trans_and_euler);
 }
 
 void SkeletonHandle::set_root_joint_to_weld()
 {
-  using namespace dart::dynamics;
   check_tree_can_change("set_root_joint_to_weld()");
-  BodyNode* root = skeleton().getRootBodyNode();
-  const Joint& joint = *root->getParentJoint();
-  root->changeParentJointType<WeldJoint>(with_frames<WeldJoint::Properties>(joint, joint, joint.getName()));
-  tree_changed();
+  change_root_to_weld(skeleton());
+  tree_changed(RootChange::weld);
+}
+
+void SkeletonHandle::tree_changed(RootChange change)
+{
+  skeleton_.skeleton->root_changes.push_back(change);
+  ++skeleton_.skeleton->structure;
 }
 
 } // namespace pydart2

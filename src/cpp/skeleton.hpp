@@ -98,7 +98,7 @@ private:
   dart::dynamics::Skeleton& skeleton() const { return *skeleton_; }
   dart::dynamics::Skeleton& with_mass() const;
   void check_tree_can_change(const char* what) const;
-  void tree_changed();
+  void tree_changed(RootChange change);
 
   /// Writes the numbers at the given places, or one number of each dof.
   void gather(const std::vector<const double*>& places, Output& out) const;

@@ -1,21 +1,19 @@
 #include "world.hpp"
 
 #include <algorithm>
-#include <dart/collision/CollisionFilter.hpp>
-#include <dart/collision/bullet/BulletCollisionDetector.hpp>
-#include <dart/collision/dart/DARTCollisionDetector.hpp>
-#include <dart/collision/fcl/FCLCollisionDetector.hpp>
-#include <dart/collision/ode/OdeCollisionDetector.hpp>
-#include <dart/constraint/BallJointConstraint.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
 
 #include "checks.hpp"
+#include "clone.hpp"
 #include "contact.hpp"
+#include "detector.hpp"
 #include "errors.hpp"
 #include "loading.hpp"
 #include "manager.hpp"
 #include "messages.hpp"
+#include "model.hpp"
+#include "state.hpp"
 #include "stepping.hpp"
 
 namespace pydart2 {
@@ -88,15 +86,6 @@ void reset_skeleton(dart::dynamics::Skeleton& skeleton)
     }
 }
 
-/// The engine's filter holds bare pointers, so it is filled anew from the record whenever that changes.
-void apply_ignored_pairs(WorldRecord& world)
-{
-  auto filter = std::make_shared<dart::collision::BodyNodeCollisionFilter>();
-  for (const auto& [body1, body2] : world.ignored_pairs)
-    filter->addBodyNodePairToBlackList(body1, body2);
-  world.world->getConstraintSolver()->getCollisionOption().collisionFilter = filter;
-}
-
 const Frame& kept_frame(const WorldRecord& world, long index)
 {
   const Frame* frame = world.recording.find(index);
@@ -106,6 +95,11 @@ const Frame& kept_frame(const WorldRecord& world, long index)
         "frame " + std::to_string(index) + " is not kept; the recording has frames "
             + std::to_string(world.recording.first_frame()) + " to " + std::to_string(world.recording.num_frames() - 1));
   return *frame;
+}
+
+void write(const std::vector<double>& numbers, Output& out)
+{
+  std::copy(numbers.begin(), numbers.end(), out.vector(static_cast<long>(numbers.size())));
 }
 
 void write_contacts(const std::vector<double>& rows, Output& out)
@@ -121,13 +115,13 @@ void restart()
   messages::forget();
 }
 
-WorldHandle::WorldHandle(dart::simulation::WorldPtr world) : record_(Manager::instance().add(std::move(world))) {}
+WorldHandle::WorldHandle(WorldRef record) : record_(std::move(record)) {}
 
-WorldHandle::WorldHandle(double time_step) : WorldHandle(make_world(time_step)) {}
+WorldHandle::WorldHandle(double time_step) : record_(Manager::instance().add(make_world(time_step))) {}
 
 WorldHandle WorldHandle::load(const ModelSource& source)
 {
-  return WorldHandle(load_world(source));
+  return WorldHandle(Manager::instance().add(load_world(source), source.packed()));
 }
 
 WorldHandle WorldHandle::find(long id)
@@ -161,9 +155,7 @@ SkeletonHandle WorldHandle::skeleton(long index) const
 int WorldHandle::add_skeleton(const ModelSource& source)
 {
   Busy busy(*record_);
-  auto skeleton = load_skeleton(source);
-  record_->world->addSkeleton(skeleton);
-  record_->skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton}));
+  record_->add(load_skeleton(source), source.packed());
   return static_cast<int>(record_->skeletons.size()) - 1;
 }
 
@@ -237,6 +229,7 @@ void WorldHandle::reset()
   record.world->reset();
   for (const auto& skeleton : record.skeletons)
     reset_skeleton(*skeleton->skeleton);
+  forget_history(record);
   record.frame = 0;
   if (record.recording.enabled())
     clear_recording();
@@ -281,20 +274,9 @@ std::string WorldHandle::collision_detector() const
 
 void WorldHandle::set_collision_detector(const std::string& name)
 {
-  auto& solver = *world().world->getConstraintSolver();
-  dart::collision::CollisionDetectorPtr detector;
-  if (name == "dart")
-    detector = dart::collision::DARTCollisionDetector::create();
-  else if (name == "fcl")
-    detector = dart::collision::FCLCollisionDetector::create();
-  else if (name == "bullet")
-    detector = dart::collision::BulletCollisionDetector::create();
-  else if (name == "ode")
-    detector = dart::collision::OdeCollisionDetector::create();
-  else
-    throw Error(Kind::value, "no collision detector '" + name + "'; there are dart, fcl, bullet and ode");
-  solver.clearLastCollisionResult(); // it points to objects of the old detector
-  solver.setCollisionDetector(detector);
+  auto& record = world();
+  use_detector(*record.world->getConstraintSolver(), make_detector(name));
+  forget_history(record);
 }
 
 void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)
@@ -341,9 +323,7 @@ void WorldHandle::add_ball_joint_constraint(
     throw Error(Kind::value, "both bodies of a constraint must be in the world that it is added to");
   if (&a == &b)
     throw Error(Kind::value, "a constraint needs two different bodies, got '" + a.getName() + "' twice");
-  auto constraint = std::make_shared<dart::constraint::BallJointConstraint>(&a, &b, point);
-  record.world->getConstraintSolver()->addConstraint(constraint);
-  record.constraints.push_back({constraint, a.getSkeleton(), b.getSkeleton()});
+  record.constraints.push_back(add_ball_joint(*record.world->getConstraintSolver(), a, b, point));
 }
 
 int WorldHandle::num_constraints() const
@@ -356,6 +336,64 @@ void WorldHandle::remove_all_constraints()
   auto& record = world();
   record.world->getConstraintSolver()->removeAllConstraints();
   record.constraints.clear();
+}
+
+void WorldHandle::snapshot(bool exact, Output& out)
+{
+  auto& record = world();
+  if (exact)
+    forget_history(record);
+  Archive archive;
+  visit_state(archive, record);
+  write(archive.numbers, out);
+}
+
+void WorldHandle::restore(const VectorIn& snapshot)
+{
+  auto& record = world();
+  Archive size;
+  visit_state(size, record);
+  check::size(snapshot.size, size.numbers.size(), "the snapshot");
+  if (!snapshot.eigen().allFinite())
+    throw Error(Kind::value, "the snapshot must be finite");
+  Archive archive({}, {snapshot.data, snapshot.data + snapshot.size});
+  visit_state(archive, record);
+  forget_history(record);
+}
+
+std::vector<std::string> WorldHandle::plan() const
+{
+  return blueprint(world()).plan;
+}
+
+std::vector<std::string> WorldHandle::model_texts() const
+{
+  Archive archive;
+  visit_model(archive, world());
+  return archive.texts;
+}
+
+void WorldHandle::model_numbers(Output& out) const
+{
+  Archive archive;
+  visit_model(archive, world());
+  write(archive.numbers, out);
+}
+
+WorldHandle WorldHandle::clone() const
+{
+  Busy busy(*record_);
+  return WorldHandle(build(blueprint(*record_)));
+}
+
+WorldHandle WorldHandle::rebuild(
+    const std::vector<std::string>& plan,
+    const std::vector<std::string>& model_texts,
+    const VectorIn& model_numbers,
+    const VectorIn& snapshot)
+{
+  const auto numbers = [](const VectorIn& in) { return std::vector<double>(in.data, in.data + in.size); };
+  return WorldHandle(build({plan, model_texts, numbers(model_numbers), numbers(snapshot)}));
 }
 
 bool WorldHandle::is_recording() const

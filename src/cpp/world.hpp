@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "arrays.hpp"
 #include "bodynode.hpp"
@@ -72,6 +73,25 @@ public:
   int num_constraints() const;
   void remove_all_constraints();
 
+  /// All that a step changes and the next one depends on. With `exact` the world first forgets what its detector and
+  /// its constraints remember of earlier steps, so that its next steps are those after restore(), bit for bit.
+  void snapshot(bool exact, Output& out);
+  void restore(const VectorIn& snapshot);
+
+  /// A world of its own that is equal in everything but its recording, which is off.
+  WorldHandle clone() const;
+
+  /// What clone() goes through, for other processes: what the world was loaded from and how its trees have changed; all
+  /// else that a user may have changed; and a snapshot.
+  std::vector<std::string> plan() const;
+  std::vector<std::string> model_texts() const;
+  void model_numbers(Output& out) const;
+  static WorldHandle rebuild(
+      const std::vector<std::string>& plan,
+      const std::vector<std::string>& model_texts,
+      const VectorIn& model_numbers,
+      const VectorIn& snapshot);
+
   bool is_recording() const;
   void set_recording(bool enable);
   long num_frames() const;
@@ -88,8 +108,7 @@ public:
   void set_recording_limit(long bytes);
 
 private:
-  explicit WorldHandle(dart::simulation::WorldPtr world);
-  explicit WorldHandle(WorldRef record) : record_(std::move(record)) {}
+  explicit WorldHandle(WorldRef record);
   WorldRecord& world() const;
 
   WorldRef record_;

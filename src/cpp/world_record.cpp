@@ -1,15 +1,24 @@
 #include "world_record.hpp"
 
+#include <dart/collision/CollisionFilter.hpp>
+#include <dart/constraint/ConstraintSolver.hpp>
 #include <numeric>
 
 #include "errors.hpp"
 
 namespace pydart2 {
 
-WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world) : id(id), world(std::move(world))
+WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string source)
+  : id(id), world(std::move(world)), source(std::move(source))
 {
   for (std::size_t i = 0; i < this->world->getNumSkeletons(); ++i)
-    skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i)}));
+    skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i), {}, static_cast<int>(i)}));
+}
+
+void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::string& source)
+{
+  world->addSkeleton(skeleton);
+  skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton, source}));
 }
 
 int WorldRecord::layout() const
@@ -33,6 +42,14 @@ void WorldRecord::refuse(State seen) const
   if (seen == State::busy)
     throw Error(Kind::engine, name + " is in use by another thread; give each thread a world of its own");
   throw Error(Kind::destroyed, name + " was destroyed by destroy() or by a later init(); make a new World");
+}
+
+void apply_ignored_pairs(WorldRecord& world)
+{
+  auto filter = std::make_shared<dart::collision::BodyNodeCollisionFilter>();
+  for (const auto& [body1, body2] : world.ignored_pairs)
+    filter->addBodyNodePairToBlackList(body1, body2);
+  world.world->getConstraintSolver()->getCollisionOption().collisionFilter = filter;
 }
 
 Busy::Busy(WorldRecord& world) : world_(world)

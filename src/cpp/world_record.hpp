@@ -4,19 +4,27 @@
 #include <dart/dynamics/Skeleton.hpp>
 #include <dart/simulation/World.hpp>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "constraint_record.hpp"
 #include "recording.hpp"
 
 namespace pydart2 {
 
 class StateWatch; // stepping.cpp
 
-/// A skeleton of a world, shared by all handles into it.
+enum class RootChange { trans_and_euler, weld };
+
+/// A skeleton of a world, shared by all handles into it, and where it came from.
 struct SkeletonRecord
 {
   dart::dynamics::SkeletonPtr skeleton;
+
+  std::string source = {};    ///< ModelSource::packed() of what it was loaded from; empty if it came with the world.
+  int index_in_source = -1;   ///< Where it was in the world that it came with.
+  std::vector<RootChange> root_changes = {};
 
   /// Counts changes of the tree: a handle to a body, joint or dof made before the last one is refused.
   int structure = 0;
@@ -25,20 +33,13 @@ struct SkeletonRecord
 };
 using SkeletonRef = std::shared_ptr<SkeletonRecord>;
 
-/// A constraint between bodies, with the skeletons that it needs alive.
-struct ConstraintRecord
-{
-  dart::constraint::ConstraintBasePtr constraint;
-  dart::dynamics::SkeletonPtr skeleton1, skeleton2;
-};
-
 /// A world and what belongs to it, shared by all handles into it.
 struct WorldRecord
 {
   /// busy: a call that released the interpreter lock is inside the engine.
   enum class State { ready, busy, destroyed };
 
-  WorldRecord(int id, dart::simulation::WorldPtr world);
+  WorldRecord(int id, dart::simulation::WorldPtr world, std::string source);
 
   /// Throws unless this world may be used now.
   void check() const
@@ -54,11 +55,15 @@ struct WorldRecord
   /// Throws what a state other than ready means.
   [[noreturn]] void refuse(State seen) const;
 
+  /// Adds a skeleton that was loaded from `source`.
+  void add(const dart::dynamics::SkeletonPtr& skeleton, const std::string& source);
+
   /// Index of a skeleton in this world, -1 if it is not in it.
   int index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const;
 
   const int id;
   dart::simulation::WorldPtr world;
+  const std::string source; ///< ModelSource::packed() of what it was loaded from; empty if it was made empty.
   std::vector<SkeletonRef> skeletons;
   std::vector<ConstraintRecord> constraints;
   std::vector<std::pair<dart::dynamics::BodyNode*, dart::dynamics::BodyNode*>> ignored_pairs;
@@ -69,6 +74,9 @@ struct WorldRecord
 
 };
 using WorldRef = std::shared_ptr<WorldRecord>;
+
+/// Fills the engine's filter, which holds bare pointers, anew from the record.
+void apply_ignored_pairs(WorldRecord& world);
 
 /// Marks a world busy for the time of a long call, so that a second thread is refused instead of racing.
 class Busy

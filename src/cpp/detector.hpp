@@ -1,0 +1,22 @@
+#pragma once
+
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <string>
+
+#include "archive.hpp"
+
+namespace pydart2 {
+
+/// "dart", "fcl", "bullet" or "ode"; ValueError for any other name.
+dart::collision::CollisionDetectorPtr make_detector(const std::string& name);
+
+/// Lets a solver find contacts with a detector. Shapes that bodies get or lose later count.
+void use_detector(dart::constraint::ConstraintSolver& solver, const dart::collision::CollisionDetectorPtr& detector);
+
+/// The same detector without memory of the steps before.
+void renew_detector(dart::constraint::ConstraintSolver& solver);
+
+/// Which detector, and how FCL treats primitive shapes.
+void visit_detector(Archive& archive, dart::constraint::ConstraintSolver& solver);
+
+} // namespace pydart2
