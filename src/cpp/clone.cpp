@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "detector.hpp"
 #include "errors.hpp"
 #include "loading.hpp"
 #include "manager.hpp"
@@ -92,7 +93,7 @@ WorldRef build(const Blueprint& blueprint)
   const auto& plan = blueprint.plan;
   if (plan.size() % texts_per_skeleton != 1)
     Archive::refuse();
-  auto world = Manager::instance().add(world_from(plan[0]), plan[0]);
+  const auto world = Manager::instance().add(with_ode([&] { return world_from(plan[0]); }), plan[0]);
   follow_plan(*world, plan);
   Archive model(blueprint.texts, blueprint.numbers), state({}, blueprint.state);
   visit_model(model, *world);

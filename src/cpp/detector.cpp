@@ -12,8 +12,15 @@ namespace pydart2 {
 using namespace dart::collision;
 using dart::constraint::ConstraintSolver;
 
+std::unique_lock<std::recursive_mutex> lock_ode()
+{
+  static std::recursive_mutex mutex;
+  return std::unique_lock(mutex);
+}
+
 CollisionDetectorPtr make_detector(const std::string& name)
 {
+  const auto lock = lock_ode();
   if (name == "dart")
     return DARTCollisionDetector::create();
   if (name == "fcl")
@@ -27,6 +34,7 @@ CollisionDetectorPtr make_detector(const std::string& name)
 
 void use_detector(ConstraintSolver& solver, const CollisionDetectorPtr& detector)
 {
+  const auto lock = lock_ode();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
   solver.setCollisionDetector(detector);
   // The engine adds the shapes of today to the new group; subscribed, it follows the skeletons.

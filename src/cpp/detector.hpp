@@ -1,11 +1,24 @@
 #pragma once
 
 #include <dart/constraint/ConstraintSolver.hpp>
+#include <mutex>
 #include <string>
 
 #include "archive.hpp"
 
 namespace pydart2 {
+
+/// ODE keeps data per process: to be held where a world with its detector is made, used or freed. No other lock may be
+/// taken while it is held.
+std::unique_lock<std::recursive_mutex> lock_ode();
+
+/// What `make` makes from a file, which may ask for ODE.
+template <class Make>
+auto with_ode(Make make)
+{
+  const auto lock = lock_ode();
+  return make();
+}
 
 /// "dart", "fcl", "bullet" or "ode"; ValueError for any other name.
 dart::collision::CollisionDetectorPtr make_detector(const std::string& name);

@@ -12,11 +12,7 @@ void end(WorldRecord& world)
 {
   Busy claim(world); // refuses a world that another thread is stepping
   claim.destroy();
-  world.recording.set_enabled(false);
-  world.constraints.clear();
-  world.ignored_pairs.clear();
-  world.skeletons.clear();
-  world.world.reset();
+  world.clear();
 }
 
 } // namespace

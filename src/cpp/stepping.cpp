@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "checks.hpp"
+#include "detector.hpp"
 #include "dof_state.hpp"
 #include "errors.hpp"
 
@@ -164,7 +165,9 @@ void check_range(const WorldRecord& record, bool ode, double time)
 void solve_constraints(WorldRecord& record, double time)
 {
   auto& solver = *record.world->getConstraintSolver();
-  check_range(record, solver.getCollisionDetector()->getType() == "ode", time);
+  const bool ode = solver.getCollisionDetector()->getType() == "ode";
+  check_range(record, ode, time);
+  const auto lock = ode ? lock_ode() : std::unique_lock<std::recursive_mutex>();
   solver.solve();
 }
 

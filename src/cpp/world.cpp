@@ -121,7 +121,7 @@ WorldHandle::WorldHandle(double time_step) : record_(Manager::instance().add(mak
 
 WorldHandle WorldHandle::load(const ModelSource& source)
 {
-  return WorldHandle(Manager::instance().add(load_world(source), source.packed()));
+  return WorldHandle(Manager::instance().add(with_ode([&] { return load_world(source); }), source.packed()));
 }
 
 WorldHandle WorldHandle::find(long id)

@@ -4,6 +4,7 @@
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <numeric>
 
+#include "detector.hpp"
 #include "errors.hpp"
 
 namespace pydart2 {
@@ -15,8 +16,19 @@ WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string s
     skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i), {}, static_cast<int>(i)}));
 }
 
+void WorldRecord::clear()
+{
+  const auto lock = lock_ode();
+  recording.set_enabled(false);
+  constraints.clear();
+  ignored_pairs.clear();
+  skeletons.clear();
+  world.reset();
+}
+
 void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::string& source)
 {
+  const auto lock = lock_ode();
   world->addSkeleton(skeleton);
   skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton, source}));
 }

@@ -40,6 +40,10 @@ struct WorldRecord
   enum class State { ready, busy, destroyed };
 
   WorldRecord(int id, dart::simulation::WorldPtr world, std::string source);
+  ~WorldRecord() { clear(); }
+
+  /// Frees what belongs to the world.
+  void clear();
 
   /// Throws unless this world may be used now.
   void check() const
