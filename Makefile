@@ -1,13 +1,13 @@
 # make demo   set up, then the first examples
 # make test   set up, then the tests
 # make wheel  a wheel that carries DART, and the source archive, in dist/
-# make test-packaging, make bench   see tests/README.md
+# make test-packaging, make soak, make sanitize, make coverage, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
 export PYTHON VENV
 
-.PHONY: demo test test-packaging bench wheel lint setup clean
+.PHONY: demo test test-packaging soak sanitize coverage bench wheel lint setup clean
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
@@ -18,6 +18,24 @@ test: setup lint
 
 test-packaging: setup
 	$(VENV)/bin/python -m pytest -m packaging
+
+soak: setup
+	$(VENV)/bin/python -m pytest -m soak -s
+
+# AddressSanitizer and UndefinedBehaviorSanitizer on our own code; then what leaks. TESTS=tests/unit for a part.
+sanitize: setup
+	tools/instrumented.sh sanitize $(VENV)/bin/python -m pytest -p no:cacheprovider $(TESTS)
+	ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=tests/soak/leaks.supp PYTHONMALLOC=malloc \
+	  tools/instrumented.sh sanitize $(VENV)/bin/python tests/soak/leaks.py
+
+# Lines of pydart2/ and src/cpp/ that the tests reach; HTML in build/coverage/html.
+coverage: setup
+	find build/coverage -name '*.gcda' -delete 2>/dev/null || true
+	tools/instrumented.sh coverage $(VENV)/bin/python -m pytest -p no:cacheprovider --cov=pydart2 --cov-report=term $(TESTS)
+	mkdir -p build/coverage/html
+	$(VENV)/bin/gcovr --root . --filter 'src/cpp/' --exclude-throw-branches --txt --html-details build/coverage/html/ \
+	  --fail-under-line 90 build/coverage/cmake
+	$(VENV)/bin/coverage report --fail-under=95 --format=total
 
 bench: setup
 	$(VENV)/bin/python benchmarks/step_overhead.py

@@ -1,0 +1,26 @@
+#!/bin/sh
+# A second build of the extension, beside the installed one, and a command that runs with it:
+#   tools/instrumented.sh sanitize|coverage COMMAND...
+# The copy of the package is build/KIND/pydart2; the engine's own libraries stay as Debian built them.
+set -eu
+cd "$(dirname "$0")/.."
+kind=$1
+shift
+folder=$PWD/build/$kind
+python=$PWD/${VENV:-.venv}/bin/python
+
+mkdir -p "$folder/pydart2"
+cp -ru pydart2/. "$folder/pydart2/"
+ln -sfn "$PWD/data" "$folder/data"
+cmake -S . -B "$folder/cmake" -DPYDART2_INSTRUMENT="$kind" -DPYDART2_OUTPUT_DIR="$folder/pydart2" \
+  -DPython3_EXECUTABLE="$python" >"$folder/cmake.log"
+cmake --build "$folder/cmake" --parallel "$(nproc)" >>"$folder/cmake.log"
+
+export PYTHONPATH="$folder" PYTHONSAFEPATH=1 # not the package in the current folder
+if [ "$kind" = sanitize ]; then
+  # Python is not instrumented, so the sanitizers come first..
+  export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so.6)"
+  export ASAN_OPTIONS="detect_leaks=0:detect_container_overflow=0:abort_on_error=1:${ASAN_OPTIONS:-}"
+  export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
+fi
+exec "$@"
