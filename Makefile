@@ -1,13 +1,13 @@
 # make demo   set up, then the first examples
 # make test   set up, then the tests
 # make wheel  a wheel that carries DART, and the source archive, in dist/
-# make test-packaging, make soak, make sanitize, make coverage, make bench   see tests/README.md
+# make test-packaging, make test-viewer, make soak, make sanitize, make coverage, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
 export PYTHON VENV
 
-.PHONY: demo test test-packaging soak sanitize coverage bench wheel lint setup clean
+.PHONY: demo test test-packaging test-viewer soak sanitize coverage bench wheel lint setup clean
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
@@ -18,6 +18,11 @@ test: setup lint
 
 test-packaging: setup
 	$(VENV)/bin/python -m pytest -m packaging
+
+test-viewer: setup
+	for model in cubes chain fullbody1 softBodies atlas; do \
+	  PYTHONPATH=tests QT_QPA_PLATFORM=offscreen $(VENV)/bin/python tests/gui/random_events.py 500 $$model >build/events-$$model.log \
+	  && tail -1 build/events-$$model.log || exit 1; done
 
 soak: setup
 	$(VENV)/bin/python -m pytest -m soak -s

@@ -13,7 +13,7 @@ packages="g++ cmake make swig libdart-all-dev python3-venv python3-dev"
 # For tests: DART's own models, the oracle, a bare system.
 packages="$packages dart-doc python3-dartpy python3-numpy debootstrap"
 # To draw (EGL, OSMesa, Mesa's drivers), and for tests of windows.
-packages="$packages libegl1 libgl1 libglx-mesa0 libgl1-mesa-dri libosmesa6 freeglut3-dev xvfb xauth"
+packages="$packages libegl1 libgl1 libglx-mesa0 libgl1-mesa-dri libosmesa6 freeglut3-dev xvfb xauth fonts-dejavu-core"
 # What Qt wants of X.
 packages="$packages libxcb-icccm4 libxcb-image0 libxcb-keysyms1 libxcb-render-util0 libxcb-shape0 libxcb-xinerama0"
 packages="$packages libxcb-xkb1 libxkbcommon-x11-0 libdbus-1-3 libfontconfig1 libfreetype6 libglib2.0-0"

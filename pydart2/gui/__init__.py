@@ -13,8 +13,9 @@ from pydart2.gui.trackball import Trackball
 
 if TYPE_CHECKING:
     from pydart2.gui.offscreen import OffscreenRenderer, render
+    from pydart2.gui.recorder import record
 
-__all__ = ["Camera", "OffscreenRenderer", "Trackball", "render"]
+__all__ = ["Camera", "OffscreenRenderer", "Trackball", "record", "render"]
 
 _MODULES = ("glut", "opengl", "pyqt5", "viewer")
 
@@ -22,6 +23,10 @@ _MODULES = ("glut", "opengl", "pyqt5", "viewer")
 def __getattr__(name: str) -> object:
     if name in ("OffscreenRenderer", "render"):
         return getattr(import_module("pydart2.gui.offscreen"), name)
+    if name == "record":
+        return import_module("pydart2.gui.recorder").record
+    if name == "side_panel":
+        return import_module("pydart2.gui.pyqt5.side_panel")
     if name in _MODULES:
         return import_module(f"pydart2.gui.{name}")
     raise AttributeError(f"module 'pydart2.gui' has no attribute {name!r}")

@@ -157,7 +157,7 @@ class Scene:
                     add_shapenode(self, node, rgba)
 
     def _add_signs(self, skel: Skeleton, show: Show) -> None:
-        size = _size_of_signs(skel)
+        size = size_of_signs(skel)
         if show.centers_of_mass and skel.bodynodes:
             self.add(geometry.sphere(2), _at(skel.C), 0.25 * size, _CENTER, casts=False)
         for body in skel.bodynodes:
@@ -197,7 +197,7 @@ class Scene:
         """Add an arrow between two points (3,), m; the head is part of its length. No arrow if they are the same."""
         tail, tip = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
         length = float(np.linalg.norm(tip - tail))
-        if length == 0.0 or not np.isfinite(length):
+        if not 1e-9 < length < np.inf:
             return
         head = min(5.0 * radius, 0.5 * length)
         neck = tip - (tip - tail) * (head / length)
@@ -268,7 +268,7 @@ def boxes(items: Iterable[Item]) -> Array:
     return np.stack([centre - reach, centre + reach], axis=1)
 
 
-def _size_of_signs(skel: Skeleton) -> float:
+def size_of_signs(skel: Skeleton) -> float:
     """A length in keeping with a skeleton's links, m: that of frames drawn at them."""
     offsets = [body.T[:3, 3] for body in skel.bodynodes]
     extent = float(np.ptp(offsets, axis=0).max()) if len(offsets) > 1 else 0.0

@@ -1,0 +1,1 @@
+"""A window by GLUT, for programs that have a GLUT loop of their own."""

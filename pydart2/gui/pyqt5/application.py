@@ -1,0 +1,80 @@
+"""The Qt application: made when there is a display, with errors and Ctrl+C that do not end the process."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import threading
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType, TracebackType
+
+from PyQt5.QtCore import Qt
+from PyQt5.QtGui import QSurfaceFormat
+from PyQt5.QtWidgets import QApplication
+
+from pydart2.gui.display import require_qt_display
+
+SAMPLES = 4  # of the window's picture, as of the headless one
+
+_application: QApplication | None = None  # Qt needs it to outlive every widget
+
+
+def application(title: str = "pydart2") -> QApplication:
+    """The process's QApplication, made at the first call.
+
+    Raises
+    ------
+    NoDisplayError
+        If there is no display to open a window on; Qt itself would end the process.
+    """
+    global _application
+    existing = QApplication.instance()
+    if isinstance(existing, QApplication):
+        return existing
+    require_qt_display()
+    surface = QSurfaceFormat.defaultFormat()
+    surface.setSamples(SAMPLES)
+    surface.setDepthBufferSize(24)
+    QSurfaceFormat.setDefaultFormat(surface)
+    QApplication.setAttribute(Qt.AA_EnableHighDpiScaling)
+    QApplication.setAttribute(Qt.AA_UseHighDpiPixmaps)
+    _application = QApplication([title])
+    _application.setStyle("Fusion")
+    return _application
+
+
+@contextmanager
+def exceptions_to(report: Callable[[str], object]) -> Iterator[None]:
+    """Within it an exception in a Qt slot goes to `report` as a traceback's text; otherwise PyQt ends the process."""
+    before = sys.excepthook
+
+    def hook(kind: type[BaseException], value: BaseException, trace: TracebackType | None) -> None:
+        if issubclass(kind, Exception):
+            report("".join(traceback.format_exception(kind, value, trace)))
+        else:
+            before(kind, value, trace)
+
+    sys.excepthook = hook
+    try:
+        yield
+    finally:
+        sys.excepthook = before
+
+
+@contextmanager
+def interrupt_calls(close: Callable[[], object]) -> Iterator[None]:
+    """Within it Ctrl+C calls `close`; in a thread other than the main one it stays as it is."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def handler(_signal: int, _frame: FrameType | None) -> None:
+        close()
+
+    before = signal.signal(signal.SIGINT, handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)

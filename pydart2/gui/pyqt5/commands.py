@@ -1,0 +1,171 @@
+"""What the window's menus and keys do beyond the original's: the recording, speed, cameras, selection, models."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PyQt5.QtWidgets import QFileDialog
+
+from pydart2.bodynode import BodyNode
+from pydart2.gui.pyqt5.actions import SPEEDS
+from pydart2.gui.scene import boxes
+from pydart2.skeleton import Skeleton
+from pydart2.world import World
+
+if TYPE_CHECKING:
+    from pydart2.dof import Dof
+    from pydart2.gui.pyqt5.window import PyQt5Window
+
+MODEL_FILES = "Models (*.urdf *.sdf *.skel *.vsk *.xml);;All files (*)"
+_TIME_STEP = 0.001  # of a world that is made for a model, s
+
+
+class Commands:
+    """The commands of a window."""
+
+    def __init__(self, window: PyQt5Window) -> None:
+        self.window = window
+        self.runtime = window.runtime
+
+    # Recording and speed
+
+    def back(self) -> None:
+        """One recorded frame back."""
+        self._scrub(self.runtime.frame - 1)
+
+    def first_frame(self) -> None:
+        """The first recorded frame."""
+        self._scrub(self.runtime.first_frame)
+
+    def last_frame(self) -> None:
+        """The last recorded frame."""
+        self._scrub(self.runtime.num_frames - 1)
+
+    def _scrub(self, frame: int) -> None:
+        self.runtime.scrub(frame)
+        self.window.refresh()
+
+    def faster(self) -> None:
+        """The next higher speed."""
+        self._change_speed(1)
+
+    def slower(self) -> None:
+        """The next lower speed."""
+        self._change_speed(-1)
+
+    def _change_speed(self, by: int) -> None:
+        box = self.window.speedBox
+        box.setCurrentIndex(min(max(box.currentIndex() + by, 0), len(SPEEDS) - 1))
+
+    def set_speed(self, index: int) -> None:
+        """Simulate at one of SPEEDS."""
+        self.runtime.pacer.speed = SPEEDS[index]
+
+    # Cameras
+
+    def next_camera(self) -> None:
+        """The next camera of the menu, after the last one the first."""
+        scene = self.window.scene
+        shown = next((i for i, tb in enumerate(scene.cameras) if tb is scene.tb), 0)
+        self.window.camera_event((shown + 1) % max(scene.num_cameras(), 1))
+
+    def frame_all(self) -> None:
+        """Let the camera see all but floors."""
+        world = self.window.world
+        if world is None:
+            return
+        picture = self.window.glwidget
+        items = [item for item in picture.overlays.scene(world).items if item.casts]
+        corners = boxes(items)
+        if len(corners) and np.isfinite(corners).all():
+            aspect = picture.width() / max(picture.height(), 1)
+            picture.camera.frame(corners[:, 0].min(axis=0), corners[:, 1].max(axis=0), aspect)
+            picture.update()
+
+    def follow(self, on: bool) -> None:
+        """Let the camera follow the selected body, or the first one that moves."""
+        part = self.window.glwidget.overlays.selected
+        world = self.window.world
+        if on and part is None and world is not None:
+            part = next((skel for skel in world.skeletons if skel.ndofs), None)
+        self.window.glwidget.follow(part if on else None)
+
+    # What is shown
+
+    def show_overlays(self, _on: bool) -> None:
+        """Show contacts, forces and so on as the actions say."""
+        overlays = self.window.glwidget.overlays
+        for name in overlays.TOGGLES:
+            setattr(overlays, name, self.window.named_actions[name].isChecked())
+        self.window.glwidget.update()
+
+    def show_inspector(self, on: bool) -> None:
+        """Show the inspector or not."""
+        self.window.inspector.setVisible(on)
+
+    def full_screen(self, on: bool) -> None:
+        """Fill the screen or not."""
+        self.window.showFullScreen() if on else self.window.showNormal()
+
+    def show_help(self, on: bool) -> None:
+        """Show the help or not."""
+        overlay = self.window.helpOverlay
+        overlay.setVisible(on)
+        if on:
+            overlay.place()
+            overlay.raise_()
+
+    # Skeletons
+
+    def select(self, part: BodyNode | Skeleton | None) -> None:
+        """Select a part in the picture and in the tree; what is followed changes to it."""
+        picture = self.window.glwidget
+        picture.overlays.selected = part
+        self.window.inspector.select(part)
+        if picture.followed is not None and part is not None:
+            picture.follow(part)
+        picture.update()
+
+    def pose(self, dof: Dof, position: float) -> None:
+        """Move a dof."""
+        with self.runtime.guarded():
+            dof.set_position(position)
+            dof.set_velocity(0.0)
+        self.window.glwidget.update()
+
+    def dismiss_error(self) -> None:
+        """Hide the traceback."""
+        self.runtime.dismiss_error()
+        self.window.errorPane.hide()
+        self.window.refresh()
+
+    # Models
+
+    def open(self) -> None:
+        """Ask for a model file and open it."""
+        options = QFileDialog.Options()
+        path, _ = QFileDialog.getOpenFileName(self.window, "Open a model", "", MODEL_FILES, options=options)
+        if path:
+            self.open_model(path)
+
+    def open_model(self, path: str | os.PathLike[str]) -> None:
+        """Add a robot to the world, or show a world's file instead of the present one; errors are shown."""
+        with self.runtime.guarded():
+            self._open_model(Path(path))
+        self.window.refresh()
+
+    def _open_model(self, path: Path) -> None:
+        world: Any = self.window.world
+        if path.suffix.lower() == ".skel":
+            step = world.dt if world is not None else _TIME_STEP
+            self.window.set_simulation(World(step, path))
+            return
+        if world is None:
+            world = World(_TIME_STEP)
+            world.add_skeleton(path)
+            self.window.set_simulation(world)
+        else:
+            self.select(world.add_skeleton(path))

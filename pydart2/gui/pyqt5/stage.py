@@ -1,0 +1,55 @@
+"""What the window gives its scene to draw."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pydart2.gui import drawing
+from pydart2.gui.overlays import Overlays
+from pydart2.gui.runtime import Runtime
+from pydart2.world import World
+
+
+class Stage:
+    """A simulation as OpenGLScene.render() takes it, with the runtime's callbacks in place of the simulation's own.
+
+    A World is drawn with the overlays, unless its class has a `render` of its own. What user code raises is noted by
+    the runtime; until that is dismissed, user code is not asked to draw again.
+    """
+
+    def __init__(self, runtime: Runtime, overlays: Overlays) -> None:
+        self.runtime = runtime
+        self.overlays = overlays
+
+    def gravity(self) -> NDArray[np.float64]:
+        """Tells the scene where up is."""
+        sim = self.runtime.sim
+        with self.runtime.guarded():
+            if isinstance(sim, World):
+                return sim.gravity()
+        return np.array([0.0, -9.81, 0.0])
+
+    def render(self) -> None:
+        """Draw the simulation."""
+        sim = self.runtime.sim
+        if isinstance(sim, World) and type(sim).render is World.render:
+            with self.runtime.guarded():
+                drawing.draw(self.overlays.scene(sim))
+        elif hasattr(sim, "render"):
+            self._ask(sim.render)
+
+    def render_with_ri(self, ri: Any) -> None:
+        """Let user code draw in the world."""
+        self._ask(self.runtime.callbacks["render_with_ri"], ri)
+
+    def draw_with_ri(self, ri: Any) -> None:
+        """Let user code draw over the picture."""
+        self._ask(self.runtime.callbacks["draw_with_ri"], ri)
+
+    def _ask(self, function: Any, *args: Any) -> None:
+        if function is not None and self.runtime.error is None:
+            with self.runtime.guarded():
+                function(*args)

@@ -1,0 +1,77 @@
+"""Movies of simulations, without a display."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pydart2.errors import SimulationError
+from pydart2.gui.camera import Camera
+from pydart2.gui.capture import write_movie
+from pydart2.gui.runtime import Runtime
+from pydart2.gui.trackball import Trackball
+
+
+def record(
+    sim: Any,
+    path: str | os.PathLike[str],
+    seconds: float,
+    rate: float = 30.0,
+    width: int = 640,
+    height: int = 480,
+    camera: int | Trackball | Camera | tuple[ArrayLike, float] = 0,
+    speed: float = 1.0,
+) -> None:
+    """Simulate, and write a movie of it; `on_step_event` is called before each step, as in a window.
+
+    Parameters
+    ----------
+    sim
+        A World, or any object with `step`, `t` and something to draw.
+    path
+        The ending says the kind: .mp4 (with PyAV), .gif, .webp, .png (animated).
+    seconds
+        How long to simulate, s.
+    rate
+        Pictures a second.
+    width, height
+        Pixels.
+    camera
+        As for `render`.
+    speed
+        Simulated seconds per second of the movie.
+
+    Raises
+    ------
+    SimulationError
+        If user code raises; the message is its traceback. The movie ends there.
+    """
+    from pydart2.gui.offscreen import OffscreenRenderer
+
+    runtime = Runtime(sim)
+    renderer = OffscreenRenderer(width, height)
+    try:
+        pictures = _pictures(runtime, seconds, speed / rate, lambda: renderer.render(sim, camera=camera))
+        write_movie(path, pictures, rate)
+    finally:
+        renderer.close()
+    if runtime.errors:
+        raise SimulationError(runtime.errors[-1])
+
+
+def _pictures(runtime: Runtime, seconds: float, spacing: float, draw: Any) -> Iterator[NDArray[np.uint8]]:
+    start = runtime.time
+    if start is None:
+        raise ValueError(f"{type(runtime.sim).__name__} has no time `t`, in s, to be recorded by")
+    yield draw()
+    for i in range(1, round(seconds / spacing) + 1):
+        half_step = 0.5 * (runtime.time_step or 0.0)
+        while (runtime.time or 0.0) + half_step < start + i * spacing:
+            before = runtime.time
+            if not runtime.step() or runtime.time == before:
+                return
+        yield draw()

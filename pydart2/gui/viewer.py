@@ -1,0 +1,71 @@
+"""Windows that show and drive simulations.
+
+>>> pydart2.gui.viewer.launch(world)
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pydart2.gui.glut.window import GLUTWindow
+    from pydart2.gui.pyqt5.window import PyQt5Window
+    from pydart2.gui.pyqt5.window import PyQt5Window as PydartWindow
+
+__all__ = ["PydartWindow", "launch", "launch_glut", "launch_pyqt4", "launch_pyqt5", "launch_window"]
+
+
+def __getattr__(name: str) -> Any:
+    """`PydartWindow` is the original's older name of PyQt5Window; Qt is imported when it is used."""
+    if name in ("PydartWindow", "PyQt5Window"):
+        from pydart2.gui.pyqt5.window import PyQt5Window
+
+        return PyQt5Window
+    raise AttributeError(f"module 'pydart2.gui.viewer' has no attribute {name!r}")
+
+
+def launch_window(sim: Any, win: Any, default_camera: int | None) -> Any:
+    """Show a window with a camera (0: Y up, 1: Z up, None: as it is) until it is closed; returns it."""
+    if default_camera is not None:
+        win.scene.set_camera(default_camera)
+    win.run()
+    return win
+
+
+def launch_pyqt5(sim: Any, title: str | None = None, default_camera: int | None = None) -> PyQt5Window:
+    """Show a simulation until the window is closed.
+
+    Parameters
+    ----------
+    sim
+        A World, or any object with some of the functions of `callbacks.EVENTS`.
+    title
+        Of the window.
+    default_camera
+        0: Y up, 1: Z up; None chooses by the world's gravity.
+
+    Returns
+    -------
+    The window; `window.runtime.errors` has the tracebacks of user code.
+
+    Raises
+    ------
+    NoDisplayError
+        If there is no display.
+    """
+    from pydart2.gui.pyqt5.window import PyQt5Window
+
+    window: PyQt5Window = launch_window(sim, PyQt5Window(sim, title), default_camera)
+    return window
+
+
+def launch_glut(sim: Any, title: str | None = None, default_camera: int | None = None) -> GLUTWindow:
+    """Show a simulation in a window by GLUT until it is closed; NoDisplayError without an X server."""
+    from pydart2.gui.glut.window import GLUTWindow
+
+    window: GLUTWindow = launch_window(sim, GLUTWindow(sim, title), default_camera)
+    return window
+
+
+launch_pyqt4 = launch_pyqt5
+launch = launch_pyqt5
