@@ -1,4 +1,4 @@
-"""Builds the extension with CMake and puts the models into the package; the rest is in pyproject.toml."""
+"""Builds the extension with CMake and puts models and examples into the package; the rest is in pyproject.toml."""
 
 from __future__ import annotations
 
@@ -43,12 +43,16 @@ class BuildExtension(build_ext):
 
 
 class BuildPackage(build_py):
-    """Puts the models beside the modules."""
+    """Puts the models and the examples beside the modules."""
 
     def run(self) -> None:
         super().run()
         if not self.editable_mode:
-            shutil.copytree(ROOT / "data", Path(self.build_lib) / "pydart2" / "data", dirs_exist_ok=True)
+            for folder in ("data", "examples"):
+                ignored = shutil.ignore_patterns("__pycache__")
+                shutil.copytree(
+                    ROOT / folder, Path(self.build_lib) / "pydart2" / folder, ignore=ignored, dirs_exist_ok=True
+                )
 
 
 def require(program: str, remedy: str) -> None:

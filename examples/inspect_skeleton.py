@@ -2,11 +2,13 @@
 
 import sys
 
+from _headless import arguments, rehearse
+
 import pydart2 as pydart
 
 
-def main(skel_path: str) -> None:
-    """Print everything about the skeleton of a URDF or SDF file."""
+def main(skel_path: str) -> pydart.World:
+    """Print everything about the skeleton of a URDF or SDF file; returns its world."""
     print(f"skeleton path = {skel_path}")
 
     pydart.init()
@@ -29,6 +31,7 @@ def main(skel_path: str) -> None:
     print_joints(skel)
     print_vectors(skel)
     print("-----")
+    return world
 
 
 def print_bodies(skel: pydart.Skeleton) -> None:
@@ -85,7 +88,10 @@ def print_vectors(skel: pydart.Skeleton) -> None:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    args = arguments(model=True)
+    if args.model is None:
         print("Usage: inspect_skeleton.py [*urdf/*sdf]")
         sys.exit(0)
-    main(sys.argv[1])
+    world = main(args.model)
+    if args.headless:
+        rehearse(world, args, steps=0, camera=1)

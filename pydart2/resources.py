@@ -18,6 +18,12 @@ def data_folder() -> Path:
     return installed if installed.is_dir() else _package.parent / "data"
 
 
+def examples_folder() -> Path:
+    """Where the examples are: inside the installed package, or beside it in a checkout."""
+    installed = _package / "examples"
+    return installed if installed.is_dir() else _package.parent / "examples"
+
+
 def data_path(name: str) -> str:
     """The path of a model of the package.
 

@@ -1,0 +1,34 @@
+"""Look at the skeleton of a URDF or SDF file."""
+
+import sys
+
+from _headless import arguments, rehearse
+
+import pydart2 as pydart
+
+if __name__ == "__main__":
+    args = arguments(model=True)
+    if args.model is None:
+        print("Usage: view_skeleton.py [*urdf/*sdf]")
+        sys.exit(0)
+
+    print(f"skeleton path = {args.model}")
+
+    pydart.init()
+    print("Pydart init OK")
+
+    world = pydart.World(1.0 / 1000.0)
+    print("World init OK")
+
+    skel = world.add_skeleton(args.model)
+    print("Skeleton add OK")
+
+    print("Camera:")
+    print("    drag: rotate camera")
+    print("    shift-drag: zoom camera")
+    print("    control-drag: translate camera")
+
+    if args.headless:
+        rehearse(world, args, steps=0)
+    else:
+        pydart.gui.viewer.launch(world)
