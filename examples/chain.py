@@ -50,6 +50,7 @@ if __name__ == "__main__":
     skel.controller = DampingController(skel)
 
     if args.headless:
-        rehearse(world, args, steps=15000, check=lambda: check(skel))
+        camera = pydart.gui.Camera.look_at([0.2, 0.0, 0.9], [0.0, -0.1, 0.0], up=[0.0, 1.0, 0.0])
+        rehearse(world, args, steps=15000, check=lambda: check(skel), camera=camera)
     else:
         pydart.gui.viewer.launch(world)

@@ -32,6 +32,7 @@ if __name__ == "__main__":
                 print(f"{skel.name}: {node.shape}")
 
     if args.headless:
-        rehearse(world, args, steps=2000, check=lambda: check(world))
+        camera = pydart.gui.Camera.look_at([0.0, 0.6, 1.4], [0.35, -0.35, 0.0], up=[0.0, 1.0, 0.0])
+        rehearse(world, args, steps=2000, check=lambda: check(world), camera=camera)
     else:
         pydart.gui.viewer.launch(world)

@@ -29,6 +29,6 @@ if __name__ == "__main__":
     print("    control-drag: translate camera")
 
     if args.headless:
-        rehearse(world, args, steps=0)
+        rehearse(world, args, steps=0, camera=1)
     else:
         pydart.gui.viewer.launch(world)

@@ -11,6 +11,7 @@ from types import ModuleType
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import pydart2
 from pydart2.__main__ import example_names, main
@@ -24,15 +25,22 @@ CLAIMS = {
     "biped_jump": 2,
     "biped_stand": 3,
     "chain": 1,
+    "contacts": 4,
     "gravity_compensation": 1,
+    "headless_video": 2,
     "hello_pydart": 1,
     "ik": 1,
+    "inverse_dynamics": 1,
     "inspect_skeleton": 0,
+    "many_worlds": 2,
+    "pull": 2,
+    "save_restore": 1,
     "shapes": 8,
     "simple_tracking": 1,
     "soft_bodies": 2,
     "view_skeleton": 0,
 }
+WRITTEN = {"headless_video": ["pictures"]}
 PRINTED = {
     "biped_jump": ["Example: bipedJump", "skeleton position OK", "create controller OK"],
     "biped_stand": [
@@ -67,7 +75,19 @@ def test_example(name: str, tmp_path: Path) -> None:
     assert sum(line.startswith("ok: ") for line in lines) == CLAIMS[name], lines[-10:]
     assert set(PRINTED.get(name, [])) <= set(lines)
     assert "NG!!!!" not in lines  # a wrong gradient in ik
-    assert not list(tmp_path.iterdir())
+    files = sorted(path.name for path in tmp_path.iterdir())
+    assert files == WRITTEN.get(name, [])
+
+
+@pytest.mark.parametrize("name", ["chain", "ik"])
+def test_pictures_and_clips(name: str, tmp_path: Path) -> None:
+    """One picture at the end, and one before each 1/25 s, or each step of ik."""
+    steps = {"chain": 1000, "ik": 2}[name]
+    run(tmp_path, name, "--headless", "--steps", str(steps), "--output", "out").check_returncode()
+    with Image.open(tmp_path / "out" / f"{name}.png") as picture, Image.open(tmp_path / "out" / f"{name}.webp") as clip:
+        assert picture.size == clip.size == (640, 480)
+        assert len(picture.convert("RGB").getcolors(maxcolors=640 * 480) or ()) > 100
+        assert getattr(clip, "n_frames", 1) == {"chain": 6, "ik": 3}[name]
 
 
 def test_the_jump_changes_its_pose_three_times(tmp_path: Path) -> None:
