@@ -1,6 +1,7 @@
 """Contacts and forces: what carries a cube, and how hard one must push to move it."""
 
 from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 from _headless import arguments, rehearse
@@ -78,6 +79,6 @@ if __name__ == "__main__":
         world.reset()
         if args.headless:
             camera = pydart.gui.Camera.look_at([0.3, 0.0, 0.8], [0.0, -0.3, 0.0], up=[0.0, 1.0, 0.0])
-            rehearse(world, args, REST + PUSH, lambda world=world, push=push: check(world, push), camera)
+            rehearse(world, args, REST + PUSH, partial(check, world, push), camera)
         else:
             pydart.gui.viewer.launch(world, title=f"A {name} push")

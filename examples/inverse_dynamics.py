@@ -25,7 +25,7 @@ class ComputedTorque:
     def __init__(self, skel: pydart.Skeleton) -> None:
         self.skel = skel
         self.rest = np.array(skel.q)
-        amplitude = skel.q - skel.q  # zeros with names
+        amplitude = pydart.SkelVector(skel=skel)  # zeros with names
         for name, value in MOTION.items():
             amplitude[name] = value
         self.amplitude = np.array(amplitude)

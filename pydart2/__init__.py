@@ -43,7 +43,16 @@ from pydart2.state import Snapshot
 from pydart2.world import World, create_world
 
 if TYPE_CHECKING:
+    # The documented modules, for type checkers: at run time the imports above have bound them.
+    from pydart2 import bodynode as bodynode
+    from pydart2 import dof as dof
     from pydart2 import gui, utils
+    from pydart2 import joint as joint
+    from pydart2 import marker as marker
+    from pydart2 import shape as shape
+    from pydart2 import shapenode as shapenode
+    from pydart2 import skel_vector as skel_vector
+    from pydart2 import skeleton as skeleton
 
     __version__: str
 

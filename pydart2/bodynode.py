@@ -383,13 +383,13 @@ class BodyNode:
     def jacobian(
         self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
-        """Jacobian of a point in body coordinates, shape (6, n)."""
+        """Jacobian of a point in body coordinates, shape (6, n), dimensionless rows and then m/rad."""
         return self._handle.jacobian(offset, full, out)
 
     def world_jacobian(
         self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
-        """Jacobian of a point in world coordinates, shape (6, n)."""
+        """Jacobian of a point in world coordinates, shape (6, n), dimensionless rows and then m/rad."""
         return self._handle.world_jacobian(offset, full, out)
 
     def linear_jacobian(
@@ -400,7 +400,7 @@ class BodyNode:
 
     @property
     def J(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
-        """Linear Jacobian of the origin in world coordinates, shape (3, ndofs)."""
+        """Linear Jacobian of the origin in world coordinates, shape (3, ndofs), m/rad or 1."""
         return self._handle.linear_jacobian(None, True, None)
 
     def angular_jacobian(self, full: bool = True, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
@@ -429,7 +429,7 @@ class BodyNode:
         return self._handle.angular_jacobian_deriv(full, out)
 
     def expand_jacobian(self, Jdep: ArrayLike) -> NDArray[np.float64]:  # noqa: N803 (the original's)
-        """A Jacobian over the dependent dofs, shape (r, n), with zero columns for the others, shape (r, ndofs)."""
+        """A Jacobian over the dependent dofs, shape (r, n), with zeros for the others, shape (r, ndofs); units stay."""
         dependent = np.asarray(Jdep, dtype=float)
         full = np.zeros((dependent.shape[0], self.skeleton.ndofs))
         full[:, [dof.id for dof in self.dependent_dofs]] = dependent

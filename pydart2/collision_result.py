@@ -51,7 +51,7 @@ class CollisionResult:
 
     @classmethod
     def from_rows(cls, _world: World, rows: NDArray[np.float64]) -> CollisionResult:
-        """A result with packed contacts, shape (n, 16), as of a recorded frame."""
+        """A result with packed contacts, shape (n, 16) in the units of `rows`, as of a recorded frame."""
         result = cls(_world)
         result._looked = _Contacts(_world, rows)
         return result

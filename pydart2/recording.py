@@ -28,7 +28,7 @@ class Recording:
 
     @property
     def history(self) -> list[tuple[NDArray[np.float64], CollisionResult]]:
-        """The kept frames, oldest first: states, shape (2 * sum of ndofs,), and contacts."""
+        """The kept frames, oldest first: states, shape (2 * sum of ndofs,), rad, m, rad/s and m/s, and contacts."""
         return [(self.states(i), self.contacts(i)) for i in range(self.first_frame, self.num_frames())]
 
     @property
@@ -55,7 +55,7 @@ class Recording:
         return self.world._handle.num_frames()
 
     def states(self, frame_index: int) -> NDArray[np.float64]:
-        """[q, dq] of each skeleton, one after another, at a kept frame; IndexError if it is gone."""
+        """[q, dq] of each skeleton at a kept frame, shape (2 * sum of ndofs,), rad, m, rad/s, m/s; or IndexError."""
         return self.world._handle.frame_states(frame_index)
 
     def contacts(self, frame_index: int) -> CollisionResult:

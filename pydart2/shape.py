@@ -213,7 +213,7 @@ class MeshShape(Shape):
     TYPE_ID = 8
 
     def scale(self) -> NDArray[np.float64]:
-        """Scale along each axis, shape (3,)."""
+        """Scale along each axis, shape (3,), dimensionless."""
         return self._handle.scale()
 
     def path(self) -> str:

@@ -334,16 +334,16 @@ class Skeleton:
         self._handle.set_accelerations(ddq)
 
     def states(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """[q, dq], shape (2 * ndofs,)."""
+        """[q, dq], shape (2 * ndofs,), rad, m, rad/s and m/s."""
         return self._handle.states(out)
 
     def set_states(self, _x: ArrayLike) -> None:
-        """Set [q, dq], shape (2 * ndofs,)."""
+        """Set [q, dq], shape (2 * ndofs,), rad, m, rad/s and m/s."""
         self._handle.set_states(_x)
 
     @property
     def x(self) -> NDArray[np.float64]:
-        """[q, dq], shape (2 * ndofs,)."""
+        """[q, dq], shape (2 * ndofs,), rad, m, rad/s and m/s."""
         return self._handle.states(None)
 
     @x.setter
@@ -351,11 +351,11 @@ class Skeleton:
         self._handle.set_states(x)
 
     def position_differences(self, _q1: ArrayLike, _q2: ArrayLike) -> NDArray[np.float64]:
-        """``q1 - q2`` on the configuration manifold (the log map for ball and free joints), shape (ndofs,)."""
+        """``q1 - q2`` on the configuration manifold (log map for ball and free joints), shape (ndofs,), rad or m."""
         return self._handle.position_differences(_q1, _q2)
 
     def velocity_differences(self, _dq1: ArrayLike, _dq2: ArrayLike) -> NDArray[np.float64]:
-        """``dq1 - dq2``, shape (ndofs,)."""
+        """``dq1 - dq2``, shape (ndofs,), rad/s or m/s."""
         return self._handle.velocity_differences(_dq1, _dq2)
 
     # Limits
@@ -408,12 +408,12 @@ class Skeleton:
         return self._handle.mass_matrix(None)
 
     def inv_mass_matrix(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """Inverse of the mass matrix, shape (ndofs, ndofs)."""
+        """Inverse of the mass matrix, shape (ndofs, ndofs), 1/(kg m²) or 1/kg."""
         return self._handle.inv_mass_matrix(out)
 
     @property
     def invM(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
-        """Inverse of the mass matrix, shape (ndofs, ndofs)."""
+        """Inverse of the mass matrix, shape (ndofs, ndofs), 1/(kg m²) or 1/kg."""
         return self._handle.inv_mass_matrix(None)
 
     def coriolis_and_gravity_forces(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
@@ -456,13 +456,14 @@ class Skeleton:
     def set_commands(self, _commands: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the commands of the next step, shape (ndofs,), or some by name.
 
-        A command is a force for FORCE joints, a velocity for SERVO and VELOCITY, an acceleration for ACCELERATION.
+        A command is a force for FORCE joints (N m or N), a velocity for SERVO and VELOCITY (rad/s or m/s), an
+        acceleration for ACCELERATION (rad/s² or m/s²).
         """
         self._handle.set_commands(self._vector(_commands, by_name, "comms"))
 
     @property
     def comms(self) -> SkelVector:
-        """Commands to the actuators, shape (ndofs,). A copy."""
+        """Commands to the actuators, shape (ndofs,), in the units of set_commands(). A copy."""
         return self._handle.commands(self._pattern)
 
     @comms.setter

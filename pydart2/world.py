@@ -273,16 +273,16 @@ class World:
         self.collision_result.update()
 
     def states(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,); in `out` if that is given."""
+        """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,), rad, m, rad/s and m/s."""
         return self._handle.states(out)
 
     def set_states(self, _x: ArrayLike) -> None:
-        """Set [q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,)."""
+        """Set [q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,), rad, m, rad/s and m/s."""
         self._handle.set_states(_x)
 
     @property
     def x(self) -> NDArray[np.float64]:
-        """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,)."""
+        """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,), rad, m, rad/s and m/s."""
         return self._handle.states(None)
 
     @x.setter

@@ -101,7 +101,7 @@ class Route:
         return len(self.points)
 
     def add_point(self, bodyname: str, offset: ArrayLike) -> None:
-        """Append a point, before the route is initialized."""
+        """Append a point, in the frame of a body, shape (3,), m, before the route is initialized."""
         self.points.append(AttachmentPoint(bodyname, offset))
 
     def initialize_points(self, skeleton: Skeleton) -> None:
@@ -139,7 +139,7 @@ class Route:
         return [point._initialized_body() for point in self.points]
 
     def local_points_as_pair(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        """The local points at both ends of each segment."""
+        """The local points at both ends of each segment, in the frames of their bodies, each of shape (3,), m."""
         return pairwise(self.local_points)
 
     def bodynodes_as_pair(self) -> Iterator[tuple[BodyNode, BodyNode]]:

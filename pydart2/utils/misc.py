@@ -30,7 +30,7 @@ def split_by_sizes(array: ArrayLike, sizes: Iterable[int]) -> list[NDArray[Any]]
     Parameters
     ----------
     array
-        Shape (n, ...).
+        Shape (n, ...), in any unit.
     sizes
         Length of each piece; their sum is n.
 
@@ -47,18 +47,18 @@ def split_by_sizes(array: ArrayLike, sizes: Iterable[int]) -> list[NDArray[Any]]
 
 
 def norm2(x: ArrayLike) -> float:
-    """Square of the Euclidean norm of all entries."""
+    """Square of the Euclidean norm of all entries of an array of any shape, in the square of its unit."""
     flat = np.asarray(x, dtype=float).ravel()
     return float(flat @ flat)
 
 
 def penalize(x: ArrayLike, lo: ArrayLike, hi: ArrayLike) -> Any:
-    """Distance of x from the interval [lo, hi]: 0 inside; a float, or an array elementwise."""
+    """Distance of x from the interval [lo, hi]: 0 inside; a float, or an array elementwise, in the unit of x."""
     return _plain(np.maximum(0.0, np.maximum(np.subtract(lo, x), np.subtract(x, hi))))
 
 
 def confine(x: ArrayLike, lo: ArrayLike, hi: ArrayLike) -> Any:
-    """The value of [lo, hi] nearest to x: a float, or an array elementwise."""
+    """The value of [lo, hi] nearest to x, in its unit: a float, or an array elementwise."""
     return _plain(np.minimum(np.maximum(x, lo), hi))
 
 
@@ -104,7 +104,7 @@ def grad(fun: Callable[[NDArray[np.float64]], float], x: ArrayLike, h: float) ->
     fun
         Function of an array of shape (n,).
     x
-        Where, shape (n,).
+        Where, shape (n,), in any unit.
     h
         Distance from x of the points at which `fun` is called, 2 for each entry.
 
@@ -140,10 +140,10 @@ def _difference(
 
 
 def deg2rad(x: ArrayLike) -> Any:
-    """Degrees to radians: a float, or an array elementwise."""
+    """Degrees to rad: a float, or an array elementwise."""
     return _plain(np.deg2rad(x))
 
 
 def rad2deg(x: ArrayLike) -> Any:
-    """Radians to degrees: a float, or an array elementwise."""
+    """Angles in rad to degrees: a float, or an array elementwise."""
     return _plain(np.rad2deg(x))
