@@ -1,5 +1,6 @@
 # make demo   set up, then the first examples
 # make test   set up, then the tests
+# make docs   docs/_build/html, with a picture or clip of each example
 # make wheel  a wheel that carries DART, and the source archive, in dist/
 # make test-packaging, make test-viewer, make soak, make sanitize, make coverage, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
@@ -7,7 +8,7 @@ PYTHON ?= python3
 VENV := .venv
 export PYTHON VENV
 
-.PHONY: demo test test-packaging test-viewer soak sanitize coverage bench wheel lint setup clean
+.PHONY: demo test docs test-packaging test-viewer soak sanitize coverage bench wheel lint setup clean
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
@@ -15,6 +16,11 @@ demo: setup
 
 test: setup lint
 	$(VENV)/bin/python -m pytest
+
+docs: setup
+	$(VENV)/bin/pip install --quiet -e '.[docs]' --no-build-isolation
+	$(VENV)/bin/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
+	@echo "docs: docs/_build/html/index.html"
 
 test-packaging: setup
 	$(VENV)/bin/python -m pytest -m packaging

@@ -1,4 +1,8 @@
-"""Biped jump: a controller that presses the heels down by the transpose of their Jacobians."""
+"""Biped jump: forces by the Jacobian transpose.
+
+A force f at a body costs the joints the forces J^T f. The controller tracks a crouch and a swing of the arms by stable
+PD control, and from 0.3 s to 0.5 s presses the heels down with 700 N each.
+"""
 
 from collections.abc import Mapping, Sequence
 

@@ -1,4 +1,8 @@
-"""Chain: a basic controller that damps a swinging chain."""
+"""Chain: a basic controller.
+
+A controller is any object with compute(), which returns the generalized forces of the next step. This one damps a
+swinging chain of ball joints, so that its energy falls all the time.
+"""
 
 from collections.abc import Mapping
 

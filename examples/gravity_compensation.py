@@ -1,4 +1,8 @@
-"""Gravity compensation with a PR2 arm: forces that cancel the weight of each body."""
+"""Gravity compensation: a PR2 whose arms float.
+
+The controller carries each body at its centre of mass: tau = sum of J^T (-m g). The key G switches it off, and the arms
+fall.
+"""
 
 from collections.abc import Mapping
 from typing import Any

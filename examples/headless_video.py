@@ -1,4 +1,7 @@
-"""Pictures and videos without a display: colours, distances, who is where, and a clip."""
+"""Pictures and videos without a display.
+
+Colours, distances along the optical axis, which body is at which pixel, and a clip. Nothing here needs a screen.
+"""
 
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,4 +1,7 @@
-"""Load a world of cubes and run it for 2 seconds."""
+"""Cubes: hello, pydart2.
+
+A world is loaded from a SKEL file and stepped for 2 seconds. The last cube falls beside the others and comes to rest.
+"""
 
 from collections.abc import Mapping
 

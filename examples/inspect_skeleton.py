@@ -1,4 +1,7 @@
-"""Navigate the bodies, joints, dofs, shapes and markers of a skeleton."""
+"""Inspect skeleton: its bodies, joints, dofs, shapes and markers.
+
+    python inspect_skeleton.py data/sdf/atlas/atlas_v3_no_head.sdf
+"""
 
 import sys
 

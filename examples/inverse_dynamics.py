@@ -1,4 +1,8 @@
-"""Inverse dynamics: the forces for a given motion, from mass matrix and bias forces."""
+"""Inverse dynamics: the forces for a given motion.
+
+The equations of motion M ddq + c = tau, read from left to right: mass matrix and bias forces give what the motors must
+do for a wanted acceleration. A little feedback takes away what the time step leaves.
+"""
 
 from collections.abc import Mapping
 

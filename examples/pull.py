@@ -1,4 +1,8 @@
-"""Pulling: lift a robot by a spring, as the right mouse button does in the window."""
+"""Pulling: lift a robot by a spring.
+
+In the window the right mouse button pulls any body while the simulation plays. The key P pulls the chest half a metre
+upwards, until the robot hangs in the air and the spring is as long as the weight makes it.
+"""
 
 import json
 from collections.abc import Mapping

@@ -1,4 +1,8 @@
-"""Saving and restoring: try several pushes from one state, and keep the best."""
+"""Saving and restoring: try several pushes from one state, and keep the best.
+
+A snapshot is all that the next step depends on. From the same snapshot the same happens, bit for bit, in this world and
+in another one of the same model.
+"""
 
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,4 +1,7 @@
-"""Shapes: one body of each kind falls onto the ground."""
+"""Shapes: one body of each kind falls onto the ground.
+
+Box, sphere, ellipsoid, cylinder, capsule, cone, multi-sphere and mesh.
+"""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,8 @@
-"""Simple tracking: a robot's configuration by name, and PD control in zero gravity."""
+"""Simple tracking: a robot's configuration by name, and PD control.
+
+Atlas floats in zero gravity. The target is written by the names of dofs; six of the 33 are the free root, which has no
+motors.
+"""
 
 from collections.abc import Mapping
 

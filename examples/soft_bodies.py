@@ -1,4 +1,7 @@
-"""Soft bodies: rigid cores in skins of point masses fall onto the ground."""
+"""Soft bodies: rigid cores in skins of point masses.
+
+Five of them fall onto the ground and onto each other. In the end the ground carries the weight of cores and skins.
+"""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,9 @@
-"""Look at the skeleton of a URDF or SDF file."""
+"""Skeleton viewer: a window on a URDF or SDF file.
+
+    python view_skeleton.py data/sdf/atlas/atlas_v3_no_head.sdf
+
+Drag turns the camera, shift-drag zooms, control-drag moves it. F1 in the window lists everything else.
+"""
 
 import sys
 

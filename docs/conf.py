@@ -1,0 +1,31 @@
+"""Settings of Sphinx. `make docs` builds docs/_build/html; warnings are errors."""
+
+from __future__ import annotations
+
+import sys
+from importlib.metadata import version as version_of
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+project = "pydart2"
+author = copyright = "the pydart2 authors"
+release = version = version_of("pydart2")
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode", "generated_pages"]
+exclude_patterns = ["_build"]
+html_theme = "furo"
+html_title = f"pydart2 {release}"
+html_static_path = ["_static"]
+html_css_files = ["pydart2.css"]
+
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_preserve_defaults = True
+autodoc_default_options = {"members": True, "show-inheritance": True}
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+napoleon_use_ivar = True

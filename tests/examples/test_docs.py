@@ -1,0 +1,111 @@
+"""Every block of Python in the documentation runs as printed, and prints what is below it."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import pydart2
+
+ROOT = Path(__file__).resolve().parents[2]
+GENERATED = {"examples", "api", "generated", "_build"}
+PAGES = [
+    path for path in sorted((ROOT / "docs").rglob("*.md")) if path.relative_to(ROOT / "docs").parts[0] not in GENERATED
+]
+PAGES = [path for path in PAGES if "```python" in path.read_text(encoding="utf-8")]
+BLOCK = re.compile(r"^```(?P<kind>\w+)\n(?P<code>.*?)^```", re.DOTALL | re.MULTILINE)
+MARK = "----8<----"
+
+
+def script(page: Path) -> tuple[str, list[str]]:
+    """The code of a page, on its own lines, and what each block is to print."""
+    text = page.read_text(encoding="utf-8")
+    lines = [""] * len(text.splitlines())
+    expected: list[str] = []
+    for match in BLOCK.finditer(text):
+        start = text.count("\n", 0, match.start()) + 1
+        if match["kind"] == "python":
+            for i, line in enumerate(match["code"].splitlines()):
+                lines[start + i] = line
+            lines[start - 1] = f"print({MARK!r}, flush=True)"
+            expected.append("")
+        elif match["kind"] == "text":
+            expected[-1] = match["code"]
+    return "\n".join(lines), expected
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT / "docs")))
+def test_page(page: Path, tmp_path: Path) -> None:
+    code, expected = script(page)
+    path = tmp_path / page.with_suffix(".py").name
+    path.write_text(code, encoding="utf-8")
+    # Windows open without a display and close by themselves.
+    env = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "PYDART2_VIEWER_SECONDS": "1"}
+    command = [sys.executable, "-W", "error", str(path)]
+    done = subprocess.run(command, cwd=tmp_path, env=env, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    own = re.sub(r"^set_camera: \d\n", "", done.stdout, flags=re.MULTILINE)  # what a window says of itself
+    printed = [part.removeprefix("\n") for part in own.split(MARK)[1:]]
+    assert printed == expected
+
+
+def test_no_page_is_left_out() -> None:
+    names = {path.stem for path in PAGES}
+    assert {"index", "install", "tutorial", "concepts", "controllers", "window"} <= names
+
+
+def migration_rows() -> list[list[str]]:
+    """The names in backticks of each column."""
+    text = (ROOT / "docs" / "migration.md").read_text(encoding="utf-8")
+    rows = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("|")]
+    return [[re.findall(r"`([^`]+)`", cell) for cell in row] for row in rows]  # type: ignore[misc]
+
+
+def test_names_here_exist() -> None:
+    names = [re.split(r"[(\[ ]", name)[0] for row in migration_rows() for name in row[-1]]
+    assert len(names) > 60
+    assert [name for name in names if not exists(name)] == []
+
+
+def exists(name: str) -> bool:
+    """Whether pydart2 has it; what is an instance's own is among the annotations of its class."""
+    owner: object = pydart2
+    for part in name.split("."):
+        if part in getattr(owner, "__annotations__", {}):
+            return True
+        if not hasattr(owner, part):
+            return False
+        owner = getattr(owner, part)
+    return True
+
+
+DARTPY = """
+import sys
+import dartpy
+
+classes = {"world": dartpy.simulation.World, "skel": dartpy.dynamics.Skeleton, "body": dartpy.dynamics.BodyNode,
+           "joint": dartpy.dynamics.Joint, "dof": dartpy.dynamics.DegreeOfFreedom, "contact": dartpy.collision.Contact}
+for name in sys.stdin.read().split():
+    first, *rest = name.split(".")
+    owner = classes.get(first) or getattr(dartpy, first)
+    for part in rest:
+        owner = getattr(owner, part, None)
+    if owner is None:
+        print(name)
+"""
+
+
+def test_names_of_dartpy_exist() -> None:
+    """In Debian's python3-dartpy."""
+    names = [re.sub(r"\(.*?\)", "", name) for row in migration_rows() if len(row) == 2 for name in row[0]]
+    assert len(names) > 50
+    done = subprocess.run(
+        ["/usr/bin/python3", "-c", DARTPY], input="\n".join(names), capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == []
