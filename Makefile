@@ -1,4 +1,4 @@
-# make demo   set up, then the first examples
+# make demo   set up, then a first example, a picture of Atlas and a clip of the standing biped
 # make test   set up, then the tests
 # make docs   docs/_build/html, with a picture or clip of each example
 # make wheel  a wheel that carries DART, and the source archive, in dist/
@@ -12,7 +12,11 @@ export PYTHON VENV
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
-	$(VENV)/bin/python examples/inspect_skeleton.py data/sdf/atlas/atlas_v3_no_head.sdf
+	$(VENV)/bin/python examples/view_skeleton.py data/sdf/atlas/atlas_v3_no_head.sdf --headless --output build/demo
+	$(VENV)/bin/python examples/biped_stand.py --headless --steps 5000 --output build/demo
+	@echo "a picture of Atlas:             build/demo/view_skeleton.png"
+	@echo "a clip of the standing biped:   build/demo/biped_stand.webp"
+	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then echo "in a window:                    $(VENV)/bin/python examples/biped_stand.py"; fi
 
 test: setup lint
 	$(VENV)/bin/python -m pytest

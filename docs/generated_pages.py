@@ -147,16 +147,19 @@ def public_modules() -> Iterator[str]:
             yield info.name
 
 
+def headline(module: str) -> str:
+    """The first line of a module's docstring."""
+    return (importlib.import_module(module).__doc__ or "").strip().partition("\n")[0]
+
+
 def module_page(name: str) -> str:
     """A module with all of its public names."""
-    head = (importlib.import_module(name).__doc__ or "").strip().splitlines()[0]
-    return f"{name}\n{'=' * len(name)}\n\n.. rubric:: {head}\n\n.. automodule:: {name}\n"
+    return f"{name}\n{'=' * len(name)}\n\n.. rubric:: {headline(name)}\n\n.. automodule:: {name}\n"
 
 
 def api_index(modules: list[str]) -> str:
     """The table of modules, and of the names at top level."""
-    rows = [(name, (importlib.import_module(name).__doc__ or "").strip().splitlines()[0]) for name in modules]
-    table = "\n".join(f"   * - :doc:`{name} <{name}>`\n     - {head}" for name, head in rows)
+    table = "\n".join(f"   * - :doc:`{name} <{name}>`\n     - {headline(name)}" for name in modules)
     toc = "\n".join(f"   {name}" for name in modules)
     names = ", ".join(f"``{name}``" for name in sorted(pydart2.__all__))
     return f"""API reference
@@ -184,4 +187,4 @@ def keys_table() -> str:
     from pydart2.gui.user_input import help_rows
 
     rows = "\n".join(f"| {keys} | {text} |" for keys, text in help_rows())
-    return f"---\norphan: true\n---\n\n| key or drag | what it does |\n|---|---|\n{rows}\n"
+    return f"# Keys of the window\n\n| key or drag | what it does |\n|---|---|\n{rows}\n"

@@ -56,7 +56,7 @@ def test_page(page: Path, tmp_path: Path) -> None:
 
 def test_no_page_is_left_out() -> None:
     names = {path.stem for path in PAGES}
-    assert {"index", "install", "tutorial", "concepts", "controllers", "window"} <= names
+    assert {"index", "install", "tutorial", "concepts", "controllers", "learning"} <= names
 
 
 def migration_rows() -> list[list[str]]:
