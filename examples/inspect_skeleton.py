@@ -1,6 +1,6 @@
 """Inspect skeleton: its bodies, joints, dofs, shapes and markers.
 
-    python inspect_skeleton.py data/sdf/atlas/atlas_v3_no_head.sdf
+python inspect_skeleton.py data/sdf/atlas/atlas_v3_no_head.sdf
 """
 
 import sys

@@ -60,7 +60,7 @@ class Camera:
 
     @property
     def pose(self) -> Matrix:
-        """Of the eye in the world, shape (4, 4)."""
+        """Of the eye in the world, shape (4, 4), m."""
         return np.asarray(np.linalg.inv(self.view), dtype=float)
 
     @cached_property

@@ -119,7 +119,7 @@ def split_at_edges(
 
 
 def flat(vertices: ArrayLike, triangles: ArrayLike) -> Mesh:
-    """A mesh whose triangles are shaded flat."""
+    """A mesh whose triangles are shaded flat, of corners of shape (n, 3), m."""
     corners = np.asarray(vertices, dtype=float)[np.asarray(triangles)]
     faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return mesh(corners.reshape(-1, 3), np.arange(3 * len(corners)), np.repeat(_unit(faces), 3, axis=0))
@@ -285,7 +285,7 @@ def hull_of_spheres(spheres: tuple[tuple[float, float, float, float], ...]) -> M
 
 def heightmap(heights: NDArray[np.float64]) -> Mesh:
     """The surface over a grid of heights, (rows, columns): x = column from the middle, y = row from the middle,
-    downwards, cells of 1 by 1."""
+    downwards, cells of 1 by 1 m."""
     rows, columns = heights.shape
     row, column = np.meshgrid(np.arange(rows), np.arange(columns), indexing="ij")
     points = np.stack([column - (columns - 1) / 2, (rows - 1) / 2 - row, heights], axis=2)

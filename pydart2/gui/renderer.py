@@ -93,7 +93,7 @@ class SceneRenderer:
         return bool(GL.glIsProgram(self._sky.id))
 
     def begin_frame(self, view: Matrix, projection: Matrix, up: NDArray[np.float64]) -> None:
-        """Note the camera of a picture, for what is drawn with the fixed pipeline."""
+        """Note a picture's matrices, shape (4, 4), for what is drawn with the fixed pipeline in m."""
         self.frame_matrices = view, projection
         self._uniforms = self._light_uniforms(up, view)
 
@@ -113,7 +113,7 @@ class SceneRenderer:
         _leave()
 
     def draw(self, scene: Scene, view: Matrix, projection: Matrix) -> None:
-        """Draw a scene into the framebuffer and viewport that are set, through matrices (4, 4)."""
+        """Draw a scene into the framebuffer and viewport that are set, through matrices (4, 4) of points in m."""
         if not scene.items:
             return
         batches, blended = self._prepare(scene, _eye(view))
@@ -140,7 +140,10 @@ class SceneRenderer:
         _leave()
 
     def draw_bodies(self, scene: Scene, view: Matrix, projection: Matrix) -> None:
-        """Draw skeleton and body ids into colour attachment 0 (two integers), depth in m into attachment 1 (float)."""
+        """Draw skeleton and body ids into colour attachment 0 (two integers), depth in m into attachment 1 (float).
+
+        Both matrices have shape (4, 4).
+        """
         if not scene.items:
             return
         batches, blended = self._prepare(scene, np.zeros(3))

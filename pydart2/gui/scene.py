@@ -144,7 +144,7 @@ class Scene:
             self.add_contacts(world.collision_result.rows)
 
     def add_skeleton(self, skel: Skeleton, rgba: ArrayLike | None = None, *, collision_shapes: bool = False) -> None:
-        """Add the visible shapes of a skeleton, or those that collide; all in one colour if it is given."""
+        """Add the visible shapes of a skeleton, or those that collide; all in one colour (4,), 0 to 1, if given."""
         from pydart2.gui.shapes import add_shapenode
 
         for body in skel.bodynodes:
@@ -218,7 +218,7 @@ class Scene:
             self.add_arrow(origin, origin + length * transform[:3, axis], 0.04 * length, rgba)
 
     def add_ground(self, height: float = 0.0, size: float = 20.0, rgba: ArrayLike = _FLOOR) -> None:
-        """Add a square floor with a grid at a height over the origin, m."""
+        """Add a square floor with a grid at a height over the origin, m; its colour has shape (4,)."""
         pose = between(height * self.up, (height + 1.0) * self.up, 0.0)
         self.add(geometry.quad(), pose, size, rgba, casts=False, specular=0.0, grid=grid_of(size))
 
@@ -256,7 +256,7 @@ def between(start: Array, end: Array, part: float = 0.5) -> Array:
 
 
 def boxes(items: Iterable[Item]) -> Array:
-    """Lowest and highest corner in the world of the box around each item, shape (n, 2, 3)."""
+    """Lowest and highest corner in the world of the box around each item, shape (n, 2, 3), m."""
     chosen = list(items)
     if not chosen:
         return np.empty((0, 2, 3))

@@ -59,7 +59,7 @@ def _color_of(node: ShapeNode) -> Array:
 
 
 def add_shapenode(scene: Scene, node: ShapeNode, rgba: ArrayLike | None = None, *, pose: Array | None = None) -> None:
-    """Add the shape of a node that has one, in its own colour or in `rgba`, where it is or at a pose (4, 4)."""
+    """Add the shape of a node that has one, in its own colour or in `rgba`, where it is or at a pose (4, 4), m."""
     drawing = _Drawing(scene, node, rgba, pose)
     count = len(scene.items)
     kind = drawing.shape.type().split(" ")[0]  # "HeightmapShape (f)" tells its number type

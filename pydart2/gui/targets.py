@@ -55,7 +55,7 @@ class ColorTarget:
         GL.glViewport(0, 0, self.width, self.height)
 
     def read(self) -> NDArray[np.uint8]:
-        """The picture, (height, width, 3), row 0 on top."""
+        """The picture, (height, width, 3), uint8, row 0 on top."""
         size = (0, 0, self.width, self.height)
         if self._read is not self._drawn:
             GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._drawn.name)

@@ -20,10 +20,11 @@ ARRAY = re.compile(r"\b(NDArray|ArrayLike|SkelVector|ndarray|Matrix|Array|Vector
 SHAPE = re.compile(r"\bshapes?\b|\((?:[\w.*+ ]+,)+[^)]*\)|\bnumbers?\b|\belementwise\b", re.I)
 # Units, and words for what has none.
 UNIT = re.compile(
-    r"(?<!\w)(m|rad|degrees|kg|s|N|J|px|pixels?)(?![\w(])|[mskgd][²³]|\b0 to 1\b"
-    r"|\b([Uu]nits?|dimensionless|quaternions?|rotations?|ids?|[Ii]ndices)\b"
+    r"(?<!\w)(m|rad|degrees|kg|s|N|J|px|[Pp]ixels?)(?![\w(])|[mskgd][²³]|\b0 to 1\b"
+    r"|\b([Uu]nits?|dimensionless|quaternions?|rotations?|ids?|[Ii]ndices|uint8|float32)\b"
 )
-LIKE = re.compile(r"(?:Like|of) (\w+)\(\)")  # "Like add_ext_force(), ..."
+LIKE = re.compile(r"(?:Like|of|for) (?:(\w+)\(\)|`([\w.]+)`)")  # "Like add_ext_force(), ...", "As for `render`."
+CONVENTION = re.compile(r"^Arrays: .*?(?=\n\n|\Z)", re.MULTILINE | re.DOTALL)  # in a class, for all of its methods
 
 
 def modules() -> Iterator[ModuleType]:
@@ -54,9 +55,17 @@ NAMES = dict(sorted(item for module in modules() for item in public(module, modu
 
 
 def documentation(path: str) -> str:
-    """Its docstring, and that of the sibling that it refers to."""
+    """Its docstring, that of what it refers to, and the convention of its class."""
     text = inspect.getdoc(NAMES[path]) or ""
-    return "\n".join([text, *(documentation(f"{path.rpartition('.')[0]}.{name}") for name in LIKE.findall(text))])
+    owner = path.rpartition(".")[0]
+    parts = [text, *CONVENTION.findall(inspect.getdoc(NAMES.get(owner)) or "")]
+    for name in (method or reference for method, reference in LIKE.findall(text)):
+        other = (
+            f"{owner}.{name}" if f"{owner}.{name}" in NAMES else next((n for n in NAMES if n.endswith(f".{name}")), "")
+        )
+        if other and other != path:
+            parts.append(documentation(other))
+    return "\n".join(parts)
 
 
 def arrays(member: Any) -> bool:

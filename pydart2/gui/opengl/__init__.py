@@ -1,0 +1,1 @@
+"""OpenGLScene in `scene`, the drawing interface of user code in `renderer`."""

@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 class FlatRenderer:
     """State, text, textures, and drawing in pixels from the upper left corner.
 
+    Arrays: points have shape (2,) and are in pixels, as sizes are; matrices have shape (4, 4).
+
     Attributes
     ----------
     textures : list of int

@@ -18,12 +18,12 @@ Array = NDArray[np.float64]
 
 
 def norm(v: ArrayLike) -> float:
-    """Length of a vector."""
+    """Length of a vector, shape (n,), in its unit."""
     return float(np.linalg.norm(v))
 
 
 def normalize(v: ArrayLike) -> Array:
-    """The unit vector along a vector; zeros for zeros."""
+    """The unit vector along a vector, shape (n,); zeros for zeros."""
     vector = np.asarray(v, dtype=float)
     length = np.linalg.norm(vector)
     return vector / length if length > 0.0 else vector
@@ -50,7 +50,9 @@ def R_axis_angle(axis: ArrayLike, angle: float) -> Array:  # noqa: N802 (the ori
 class Renderer(FlatRenderer):
     """Draws with OpenGL's current matrices and colour, so that OpenGL calls in between work as they look.
 
-    In `render_with_ri` coordinates are the world's, in m. Bodies are lit, and shadowed by the world, as the world is.
+    Arrays: points, directions and sizes have shape (3,) and are, in `render_with_ri`, the world's, in m.
+
+    Bodies are lit, and shadowed by the world, as the world is.
     """
 
     def __init__(self) -> None:
