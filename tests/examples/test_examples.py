@@ -173,7 +173,7 @@ def test_list(capsys: pytest.CaptureFixture[str]) -> None:
     main(["examples"])
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[0] for line in lines] == example_names()
-    assert all(len(line.split()) > 4 for line in lines)
+    assert all(len(line.split()) > 3 for line in lines)
 
 
 def test_run_by_name(tmp_path: Path) -> None:
