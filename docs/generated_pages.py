@@ -154,7 +154,7 @@ def headline(module: str) -> str:
 
 def module_page(name: str) -> str:
     """A module with all of its public names."""
-    return f"{name}\n{'=' * len(name)}\n\n.. rubric:: {headline(name)}\n\n.. automodule:: {name}\n"
+    return f"{name}\n{'=' * len(name)}\n\n.. automodule:: {name}\n"
 
 
 def api_index(modules: list[str]) -> str:
