@@ -12,6 +12,7 @@ export PYTHON VENV
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
+	$(VENV)/bin/python examples/inspect_skeleton.py data/sdf/atlas/atlas_v3_no_head.sdf
 	$(VENV)/bin/python examples/view_skeleton.py data/sdf/atlas/atlas_v3_no_head.sdf --headless --output build/demo
 	$(VENV)/bin/python examples/biped_stand.py --headless --steps 5000 --output build/demo
 	@echo "a picture of Atlas:             build/demo/view_skeleton.png"

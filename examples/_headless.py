@@ -110,6 +110,7 @@ class Clip:
         if self.folder is None:
             return
         from PIL import Image
+
         from pydart2.gui.capture import write_movie
 
         self.look(0)

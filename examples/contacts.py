@@ -1,7 +1,7 @@
 """Contacts and forces: what carries a cube, and how hard one must push to move it.
 
-The ground carries the weight in four contacts. By Coulomb's law friction takes a push of up to its coefficient times the
-weight; what is more accelerates the cube.
+The ground carries the weight in four contacts. By Coulomb's law friction takes a push of up to its coefficient times
+the weight; what is more accelerates the cube.
 """
 
 from collections.abc import Mapping

@@ -12,6 +12,10 @@ from pydart2.gui.camera import Camera
 from pydart2.gui.trackball import Trackball
 
 if TYPE_CHECKING:
+    from pydart2.gui import glut as glut
+    from pydart2.gui import opengl as opengl
+    from pydart2.gui import pyqt5 as pyqt5
+    from pydart2.gui import viewer as viewer
     from pydart2.gui.offscreen import OffscreenRenderer, render
     from pydart2.gui.recorder import record
 

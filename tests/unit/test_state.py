@@ -301,7 +301,7 @@ def every_kind(tmp_path: Path) -> Iterator[pydart2.World]:
 
 # The recording is no part of a clone; the state of a skeleton is, and is tested above.
 NOT_TRIED = {"set_recording", "set_frame", "set_recording_limit"} | {
-    f"set_{name}" for name in ("positions", "velocities", "accelerations", "forces", "commands")
+    f"set_{name}" for name in ("states", "positions", "velocities", "accelerations", "forces", "commands")
 }
 
 
