@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +29,8 @@ def world_of(*bodies: str) -> pydart2.World:
 def body(geometry: str, pose: str = "0 0 0 0 0 0", color: str = "0.8 0.3 0.3", *, fixed: bool = False) -> str:
     """A skeleton with one body of one shape."""
     joint, mobile = ("weld", "false") if fixed else ("free", "true")
-    return _BODY.format(name=geometry, pose=pose, geometry=geometry, color=color, joint=joint, mobile=mobile)
+    name = re.sub(r"[^\w.]+", " ", geometry)
+    return _BODY.format(name=name, pose=pose, geometry=geometry, color=color, joint=joint, mobile=mobile)
 
 
 def sphere(radius: float) -> str:
