@@ -60,7 +60,7 @@ class CameraControl:
     # Drags, in pixels of a picture of (width, height), y downwards
 
     def rotate(self, position: ArrayLike, change: ArrayLike, size: tuple[int, int]) -> None:
-        """Turn about the pivot: the mouse came to `position` (2,) by a way of `change` (2,)."""
+        """Turn about the pivot: the mouse came to `position` (2,) by a way of `change` (2,), both in pixels."""
         (x, y), (dx, dy) = np.asarray(position, dtype=float), np.asarray(change, dtype=float)
         before = self.to_eye(self.pivot)
         self.trackball.viewport = (max(size[0], 1), max(size[1], 1))
@@ -68,12 +68,12 @@ class CameraControl:
         self.trans = self.trans + before - self.to_eye(self.pivot)
 
     def translate(self, change: ArrayLike, size: tuple[int, int]) -> None:
-        """Move the world with the mouse: what is at the pivot's distance stays under it."""
+        """Move the world with the mouse, by `change` (2,) pixels: what is at the pivot's distance stays under it."""
         dx, dy = np.asarray(change, dtype=float) * (self.pixel_size(size[1]) / _PIXEL)
         self.trackball.trans_to(dx, -dy)
 
     def zoom(self, change: ArrayLike, size: tuple[int, int]) -> None:
-        """Bring the pivot nearer, right and up."""
+        """Bring the pivot nearer: right and up, by `change` (2,) pixels."""
         dx, dy = np.asarray(change, dtype=float)
         self.zoom_by(np.exp(-(dx - dy) * 2.0 / max(size[1], 1)))
 

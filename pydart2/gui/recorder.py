@@ -41,7 +41,7 @@ def record(
     width, height
         Pixels.
     camera
-        As for `render`.
+        As for `World.render`: an index, a Trackball, a Camera, or (pose (4, 4), field of view in rad).
     speed
         Simulated seconds per second of the movie.
 

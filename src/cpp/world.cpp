@@ -229,7 +229,8 @@ void WorldHandle::reset()
   record.world->reset();
   for (const auto& skeleton : record.skeletons)
     reset_skeleton(*skeleton->skeleton);
-  forget_history(record);
+  if (record.frame > 0) // a fresh world's detector has the engine's own order of contacts
+    forget_history(record);
   record.frame = 0;
   if (record.recording.enabled())
     clear_recording();
@@ -275,8 +276,9 @@ std::string WorldHandle::collision_detector() const
 void WorldHandle::set_collision_detector(const std::string& name)
 {
   auto& record = world();
-  use_detector(*record.world->getConstraintSolver(), make_detector(name));
-  forget_history(record);
+  auto& solver = *record.world->getConstraintSolver();
+  solver.clearLastCollisionResult(); // it points to objects of the old detector
+  solver.setCollisionDetector(make_detector(name)); // not use_detector(): its contacts have another order than the engine's
 }
 
 void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)

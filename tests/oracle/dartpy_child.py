@@ -60,7 +60,8 @@ FIELDS: dict[str, Callable[[Any], Any]] = {
     "q": lambda skeleton: skeleton.getPositions(),
     "dq": lambda skeleton: skeleton.getVelocities(),
     "ddq": lambda skeleton: skeleton.getAccelerations(),
-    "M": lambda skeleton: skeleton.getMassMatrix(),
+    # Of a copy: reading it changes what the engine's next step does where a joint's motion is prescribed.
+    "M": lambda skeleton: skeleton.clone().getMassMatrix(),
     "c": lambda skeleton: skeleton.getCoriolisAndGravityForces(),
     "g": lambda skeleton: skeleton.getGravityForces(),
     "C": lambda skeleton: skeleton.getCOM(),

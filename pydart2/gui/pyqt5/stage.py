@@ -25,7 +25,7 @@ class Stage:
         self.overlays = overlays
 
     def gravity(self) -> NDArray[np.float64]:
-        """Tells the scene where up is."""
+        """(3,) m/s², in the world frame: tells the scene where up is."""
         sim = self.runtime.sim
         with self.runtime.guarded():
             if isinstance(sim, World):
