@@ -4,6 +4,8 @@
 #include <dart/collision/dart/DARTCollisionDetector.hpp>
 #include <dart/collision/fcl/FCLCollisionDetector.hpp>
 #include <dart/collision/ode/OdeCollisionDetector.hpp>
+#include <dart/dynamics/BodyNode.hpp>
+#include <dart/dynamics/ConeShape.hpp>
 
 #include "errors.hpp"
 
@@ -42,6 +44,25 @@ void use_detector(ConstraintSolver& solver, const CollisionDetectorPtr& detector
   group.removeAllShapeFrames();
   for (const auto& skeleton : solver.getSkeletons())
     group.subscribeTo(skeleton);
+}
+
+bool has_cones(const dart::simulation::World& world)
+{
+  for (std::size_t i = 0; i < world.getNumSkeletons(); ++i)
+    for (const auto* body : world.getSkeleton(i)->getBodyNodes())
+      for (const auto* node : body->getShapeNodesWith<dart::dynamics::CollisionAspect>())
+        if (node->getShape()->is<dart::dynamics::ConeShape>())
+          return true;
+  return false;
+}
+
+void spare_fcl_cones(dart::simulation::World& world)
+{
+  auto& solver = *world.getConstraintSolver();
+  if (solver.getCollisionDetector()->getType() != "fcl" || !has_cones(world))
+    return;
+  dtwarn << "FCL of this engine puts cones in random places: the world's collision detector is Bullet now.\n";
+  solver.setCollisionDetector(make_detector("bullet"));
 }
 
 void renew_detector(ConstraintSolver& solver)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/simulation/World.hpp>
 #include <mutex>
 #include <string>
 
@@ -25,6 +26,12 @@ dart::collision::CollisionDetectorPtr make_detector(const std::string& name);
 
 /// Lets a solver find contacts with a detector. Shapes that bodies get or lose later count.
 void use_detector(dart::constraint::ConstraintSolver& solver, const dart::collision::CollisionDetectorPtr& detector);
+
+/// Whether a world has cones to collide with. FCL needs none: the engine gives them places from unset memory.
+bool has_cones(const dart::simulation::World& world);
+
+/// Where FCL would have to deal with cones Bullet takes over, and says so.
+void spare_fcl_cones(dart::simulation::World& world);
 
 /// The same detector without memory of the steps before.
 void renew_detector(dart::constraint::ConstraintSolver& solver);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "detector.hpp"
 #include "errors.hpp"
 #include "loading.hpp"
 #include "messages.hpp"
@@ -52,6 +53,7 @@ int main(int argc, char* argv[])
       world = pydart2::load_world(source);
     else
       world->addSkeleton(pydart2::load_skeleton(source));
+    pydart2::spare_fcl_cones(*world);
     use(*world);
   } catch (const std::exception& error) {
     std::fputs(error.what(), stdout);
