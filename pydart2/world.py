@@ -382,6 +382,18 @@ class World:
         """Name of the detector's constant, as ``"FCL_COLLISION_DETECTOR"``."""
         return f"{self._handle.collision_detector().upper()}_COLLISION_DETECTOR"
 
+    def set_constraint_solver(self, name: str) -> None:
+        """Choose the code that sets up the equations of contacts and constraints; ValueError for an unknown name.
+
+        "fast" (default) and "dart", the engine's own, which gives bitwise the same states and contact forces. The
+        environment variable ``PYDART2_SOLVER`` names the one that new worlds start with.
+        """
+        self._handle.set_constraint_solver(name)
+
+    def constraint_solver(self) -> str:
+        """Name of the constraint solver, "fast" or "dart"."""
+        return self._handle.constraint_solver()
+
     # Recording
 
     def is_recording(self) -> bool:

@@ -9,6 +9,7 @@
 #include "contact.hpp"
 #include "detector.hpp"
 #include "errors.hpp"
+#include "fast_solver.hpp"
 #include "loading.hpp"
 #include "manager.hpp"
 #include "messages.hpp"
@@ -281,6 +282,16 @@ void WorldHandle::set_collision_detector(const std::string& name)
   auto& solver = *record.world->getConstraintSolver();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
   solver.setCollisionDetector(make_detector(name)); // not use_detector(): its contacts have another order than the engine's
+}
+
+std::string WorldHandle::constraint_solver() const
+{
+  return name_of(installed_solver(*world().world));
+}
+
+void WorldHandle::set_constraint_solver(const std::string& name)
+{
+  install_solver(*world().world, solver_named(name));
 }
 
 void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)

@@ -60,6 +60,10 @@ public:
   std::string collision_detector() const;
   void set_collision_detector(const std::string& name);
 
+  /// "fast" or "dart".
+  std::string constraint_solver() const;
+  void set_constraint_solver(const std::string& name);
+
   /// Two bodies that do not collide with each other, or do again.
   void ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore);
   void ignore_no_pair();

@@ -6,12 +6,14 @@
 
 #include "detector.hpp"
 #include "errors.hpp"
+#include "fast_solver.hpp"
 
 namespace pydart2 {
 
 WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string source)
   : id(id), world(std::move(world)), source(std::move(source))
 {
+  install_solver(*this->world, default_solver());
   for (std::size_t i = 0; i < this->world->getNumSkeletons(); ++i)
     skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i), {}, static_cast<int>(i)}));
 }

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <dart/constraint/ConstraintBase.hpp>
+#include <dart/dynamics/GenericJoint.hpp>
+
+/// What the fast solver must know of the engine's objects and the engine keeps to itself: the rows of its constraints and
+/// the inverse projected inertia of its joints. Read only.
+namespace pydart2::engine {
+
+/// Up to six rows of a constraint at one body: column i is the impulse on the body, a wrench in its frame, that goes with
+/// a unit impulse of row i, and by duality what row i reads of the body's velocity change.
+using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
+/// The order in which the engine sums the six terms of direction . velocity: floating-point sums depend on it.
+enum class SumOrder { contact, ball, weld };
+
+/// A constraint of one or two bodies: contact, ball joint, weld joint. A missing body is null.
+struct BodyRows
+{
+  SumOrder order;
+  std::array<dart::dynamics::BodyNode*, 2> bodies;
+  std::array<Directions, 2> directions;
+  std::array<double, 2> slip{0.0, 0.0}; ///< A contact's slip compliance in its two tangential rows.
+};
+
+/// A constraint of the degrees of freedom of one joint: limits and servo, Coulomb friction, mimic motor.
+struct JointRows
+{
+  dart::dynamics::Joint* joint;
+  std::array<bool, 6> active; ///< Which of them have a row.
+};
+
+/// What a constraint is made of, and how much of a diagonal element its force mixing adds.
+struct Rows
+{
+  enum class Kind { bodies, joint, unknown } kind = Kind::unknown;
+  BodyRows bodies;
+  JointRows joint;
+  double force_mixing = 0.0;
+};
+
+/// The rows of a constraint; unknown for classes that are not listed above and for classes derived from them.
+void read_rows(const dart::constraint::ConstraintBase& constraint, Rows& rows);
+
+/// (J' I J)^-1 of a joint, I the articulated inertia of its child body without implicit damping and springs. Valid once
+/// the articulated inertia is up to date (BodyNode::getArticulatedInertia). The member is protected: a derived class may
+/// name it.
+template <class Space>
+struct InverseProjectedInertia : dart::dynamics::GenericJoint<Space>
+{
+  static const typename Space::Matrix& of(const dart::dynamics::GenericJoint<Space>& joint)
+  {
+    return joint.*(&InverseProjectedInertia::mInvProjArtInertia);
+  }
+};
+
+} // namespace pydart2::engine
