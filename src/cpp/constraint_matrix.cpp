@@ -16,20 +16,19 @@ using engine::SumOrder;
 constexpr int none = TreeImpulses::none;
 constexpr int orders = 3; // of engine::SumOrder
 
-/// sum of n[i] d[i] as Eigen sums it in the engine's code: in pairs of two lanes where the direction is a contiguous column
-/// (contacts), by halves where it is a row of a 3x6 matrix (ball), one after the other for a 6x6 matrix (weld).
+/// The sums of p(0) to p(5), arrays with an element for each row.
 template <class Products>
 void sum(SumOrder order, const Products& p, double* values, int size)
 {
   Eigen::Map<Eigen::ArrayXd> out(values, size);
   switch (order) {
-    case SumOrder::contact:
+    case SumOrder::lanes:
       out = (p(0) + (p(2) + p(4))) + (p(1) + (p(3) + p(5)));
       break;
-    case SumOrder::ball:
+    case SumOrder::halves:
       out = (p(0) + (p(1) + p(2))) + (p(3) + (p(4) + p(5)));
       break;
-    case SumOrder::weld:
+    case SumOrder::sequence:
       out = ((((p(0) + p(1)) + p(2)) + p(3)) + p(4)) + p(5);
       break;
   }
@@ -112,10 +111,14 @@ void ConstraintMatrix::gather_readings()
     for (const auto& item : items_)
       for (const int side : {0, 1})
         if (item.rows.kind == Rows::Kind::bodies && item.bodies[side] != none)
-          visit(item, item.rows.bodies.directions[side], orders * item.bodies[side] + int(item.rows.bodies.order));
+          for (int i = 0; i < item.end - item.begin; ++i)
+            visit(
+                orders * item.bodies[side] + int(item.rows.bodies.orders[i]),
+                item.begin + i,
+                item.rows.bodies.directions[side].col(i));
   };
   ends_.assign(orders * trees_.size() + 1, 0);
-  each([this](const Item&, const auto& directions, int key) { ends_[key + 1] += int(directions.cols()); });
+  each([this](int key, int, const auto&) { ++ends_[key + 1]; });
   for (std::size_t key = 1; key < ends_.size(); ++key)
     ends_[key] += ends_[key - 1];
   starts_ = ends_;
@@ -123,11 +126,10 @@ void ConstraintMatrix::gather_readings()
   directions_.resize(6, columns);
   direction_rows_.resize(columns);
   values_.resize(columns);
-  each([this](const Item& item, const auto& directions, int key) {
-    for (int i = 0; i < directions.cols(); ++i, ++ends_[key]) {
-      directions_.col(ends_[key]) = directions.col(i);
-      direction_rows_[ends_[key]] = item.begin + i;
-    }
+  each([this](int key, int row, const auto& direction) {
+    const int column = ends_[key]++;
+    directions_.col(column) = direction;
+    direction_rows_[column] = row;
   });
 }
 

@@ -76,10 +76,15 @@ template struct Reveal<FrictionActive, &Friction::mActive>;
 template struct Reveal<MimicJoint, &Mimic::mJoint>;
 template struct Reveal<MimicActive, &Mimic::mActive>;
 
+constexpr auto lanes = SumOrder::lanes, halves = SumOrder::halves, sequence = SumOrder::sequence;
+constexpr std::array<SumOrder, 6> contact_orders{lanes, lanes, lanes};
+constexpr std::array<SumOrder, 6> ball_orders{sequence, sequence, halves};
+constexpr std::array<SumOrder, 6> weld_orders{sequence, sequence, sequence, sequence, sequence, sequence};
+
 BodyRows contact_rows(const ContactConstraint& contact)
 {
   return {
-      SumOrder::contact,
+      contact_orders,
       {contact.*member(ContactBodyA()), contact.*member(ContactBodyB())},
       {contact.*member(ContactNormalA()), contact.*member(ContactNormalB())},
       {contact.*member(PrimarySlip()), contact.*member(SecondarySlip())}};
@@ -87,10 +92,14 @@ BodyRows contact_rows(const ContactConstraint& contact)
 
 /// Of joints between two bodies: the first moves with the joint, the second against it.
 template <class Jacobian>
-BodyRows joint_rows(const DynamicJointConstraint& joint, SumOrder order, const Jacobian& first, const Jacobian& second)
+BodyRows joint_rows(
+    const DynamicJointConstraint& joint,
+    const std::array<SumOrder, 6>& orders,
+    const Jacobian& first,
+    const Jacobian& second)
 {
   return {
-      order,
+      orders,
       {joint.*member(DynamicBody1()), joint.*member(DynamicBody2())},
       {first.transpose(), -second.transpose()}};
 }
@@ -117,12 +126,12 @@ void read_rows(const ConstraintBase& constraint, Rows& rows)
   } else if (type == typeid(Weld)) {
     const auto& weld = static_cast<const Weld&>(constraint);
     rows.kind = Rows::Kind::bodies;
-    rows.bodies = joint_rows(weld, SumOrder::weld, weld.*member(WeldJacobian1()), weld.*member(WeldJacobian2()));
+    rows.bodies = joint_rows(weld, weld_orders, weld.*member(WeldJacobian1()), weld.*member(WeldJacobian2()));
     rows.force_mixing = DynamicJointConstraint::getConstraintForceMixing();
   } else if (type == typeid(Ball)) {
     const auto& ball = static_cast<const Ball&>(constraint);
     rows.kind = Rows::Kind::bodies;
-    rows.bodies = joint_rows(ball, SumOrder::ball, ball.*member(BallJacobian1()), ball.*member(BallJacobian2()));
+    rows.bodies = joint_rows(ball, ball_orders, ball.*member(BallJacobian1()), ball.*member(BallJacobian2()));
     rows.force_mixing = DynamicJointConstraint::getConstraintForceMixing();
   } else if (type == typeid(JointConstraint)) {
     const auto& limit = static_cast<const JointConstraint&>(constraint);

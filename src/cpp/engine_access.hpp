@@ -13,13 +13,17 @@ namespace pydart2::engine {
 /// a unit impulse of row i, and by duality what row i reads of the body's velocity change.
 using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
-/// The order in which the engine sums the six terms of direction . velocity: floating-point sums depend on it.
-enum class SumOrder { contact, ball, weld };
+/// The order in which the engine, through Eigen, sums the six terms of direction . velocity; the last bits depend on it.
+enum class SumOrder {
+  lanes,   ///< (0 + (2 + 4)) + (1 + (3 + 5)): contacts, whose directions are contiguous columns.
+  halves,  ///< (0 + (1 + 2)) + (3 + (4 + 5)): the third row of a ball joint's 3x6 Jacobian.
+  sequence ///< One after the other: its first two rows, and a weld joint's 6x6 Jacobian.
+};
 
 /// A constraint of one or two bodies: contact, ball joint, weld joint. A missing body is null.
 struct BodyRows
 {
-  SumOrder order;
+  std::array<SumOrder, 6> orders; ///< Of each row.
   std::array<dart::dynamics::BodyNode*, 2> bodies;
   std::array<Directions, 2> directions;
   std::array<double, 2> slip{0.0, 0.0}; ///< A contact's slip compliance in its two tangential rows.
