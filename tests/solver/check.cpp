@@ -139,8 +139,8 @@ void run(int steps, const std::string& model, const std::string& detector, const
       command(*world, report.steps);
     std::strcpy(report.result, "engine");
     theirs->step();
-    compared->step();
     std::strcpy(report.result, "ours");
+    compared->step();
     ours->step();
     std::strcpy(report.result, "different");
     const auto expected = outcome(*theirs);
