@@ -15,6 +15,7 @@ from pydart2.bodynode import BodyNode
 from pydart2.collision_result import CollisionResult
 from pydart2.contact import Contact
 from pydart2.dof import Dof
+from pydart2.engine import EngineInfo, engine_info
 from pydart2.errors import DestroyedError, LoadError, NameNotFound, PydartError, SimulationError
 from pydart2.joint import (
     BallJoint,
@@ -65,6 +66,7 @@ __all__ = [
     "Contact",
     "DestroyedError",
     "Dof",
+    "EngineInfo",
     "EulerJoint",
     "FreeJoint",
     "Joint",
@@ -93,6 +95,7 @@ __all__ = [
     "create_world",
     "data_files",
     "data_path",
+    "engine_info",
     "gui",
     "init",
     "papi",

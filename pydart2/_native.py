@@ -13,6 +13,10 @@ from pydart2.pydart2_api import (
     SkeletonHandle,
     SoftBodyHandle,
     WorldHandle,
+    default_solver_name,
+    engine_has_assertions,
+    engine_prefix,
+    engine_version,
     restart,
 )
 
@@ -29,5 +33,9 @@ __all__ = [
     "SkeletonHandle",
     "SoftBodyHandle",
     "WorldHandle",
+    "default_solver_name",
+    "engine_has_assertions",
+    "engine_prefix",
+    "engine_version",
     "restart",
 ]

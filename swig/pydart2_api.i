@@ -18,6 +18,7 @@
 %include "threads.i"
 %include "typemaps.i"
 
+%include "engine_info.i"
 %include "dof.i"
 %include "joint.i"
 %include "marker.i"

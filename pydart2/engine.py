@@ -1,0 +1,43 @@
+"""What runs underneath."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from pydart2 import _native
+
+
+class EngineInfo(NamedTuple):
+    """The DART library in use and what new worlds start with.
+
+    Attributes
+    ----------
+    dart
+        Version of DART, as ``"6.12.1"``.
+    assertions
+        Whether the library was built with its assertions, as Debian's is. They cost speed, and one that fails ends the
+        process.
+    prefix
+        Folder that it is installed under, as ``"/usr"``.
+    solver
+        Constraint solver of new worlds, "fast" or "dart" (`World.set_constraint_solver`).
+    """
+
+    dart: str
+    assertions: bool
+    prefix: str
+    solver: str
+
+
+def engine_info() -> EngineInfo:
+    """Describe the engine; ValueError if the environment variable ``PYDART2_SOLVER`` names no solver.
+
+    >>> pydart2.engine_info().dart
+    '6.12.1'
+    """
+    return EngineInfo(
+        _native.engine_version(),
+        _native.engine_has_assertions(),
+        _native.engine_prefix(),
+        _native.default_solver_name(),
+    )

@@ -1,0 +1,5 @@
+%{
+#include "engine_info.hpp"
+%}
+
+%include "engine_info.hpp"
