@@ -2,13 +2,14 @@
 # make test   set up, then the tests
 # make docs   docs/_build/html, with a picture or clip of each example
 # make wheel  a wheel that carries DART, and the source archive, in dist/
-# make test-packaging, make test-viewer, make soak, make sanitize, make coverage, make bench   see tests/README.md
+# make test-packaging, make test-viewer, make test-solver, make soak, make sanitize, make coverage, make bench
+#   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
 export PYTHON VENV
 
-.PHONY: demo test docs test-packaging test-viewer soak sanitize coverage bench wheel lint setup clean
+.PHONY: demo test docs test-packaging test-viewer test-solver soak sanitize coverage bench wheel lint setup clean
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
@@ -29,6 +30,9 @@ docs: setup
 
 test-packaging: setup
 	$(VENV)/bin/python -m pytest -m packaging
+
+test-solver: setup
+	$(VENV)/bin/python -m pytest -m solver
 
 test-viewer: setup
 	for model in cubes chain fullbody1 softBodies atlas; do \
@@ -56,6 +60,7 @@ coverage: setup
 bench: setup
 	$(VENV)/bin/python benchmarks/step_overhead.py
 	$(VENV)/bin/python benchmarks/reading.py
+	$(VENV)/bin/python benchmarks/solver.py
 	$(VENV)/bin/pip install --quiet mujoco
 	$(VENV)/bin/python benchmarks/rendering.py
 

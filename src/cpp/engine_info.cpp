@@ -2,6 +2,7 @@
 
 #include <dart/config.hpp>
 #include <dlfcn.h>
+#include <filesystem>
 
 #include "fast_solver.hpp"
 
@@ -24,7 +25,7 @@ std::string engine_prefix()
   const auto* function = reinterpret_cast<const void*>(&dart::constraint::ConstraintBase::compressPath);
   if (dladdr(function, &library) == 0 || library.dli_fname == nullptr)
     return "";
-  const std::string path = library.dli_fname;
+  const auto path = std::filesystem::weakly_canonical(library.dli_fname).string(); // /lib is a link to /usr/lib
   return path.substr(0, path.rfind("/lib/"));
 }
 

@@ -3,7 +3,7 @@
 //   check STEPS MODEL DETECTOR VARIATION [DETECTOR VARIATION ...]
 //
 // prints for each scene one line "DETECTOR VARIATION RESULT steps=N contacts=N rows=N difference=X", where RESULT is
-//   equal     states, contacts and contact forces had the same bits in all steps, and all matrices were equal;
+//   equal     states, contacts and contact forces had the same bits in all steps, and so had the matrices of the first 50;
 //   different they had not: N is the step;
 //   refused   the engine cannot load the model or make its world;
 //   engine    the engine's own solver ended the process in step N; until then all was equal;
@@ -134,17 +134,21 @@ void run(int steps, const std::string& model, const std::string& detector, const
   const auto compared = make_scene(model, detector, variation);
   pydart2::install_solver(*ours, pydart2::Solver::fast);
   compared->setConstraintSolver(std::make_unique<ComparingSolver>(report));
+  constexpr int matrix_steps = 50;
   for (report.steps = 0; report.steps < steps; ++report.steps) {
+    const bool compare = report.steps < matrix_steps;
     for (const auto& world : {theirs, ours, compared})
       command(*world, report.steps);
     std::strcpy(report.result, "engine");
     theirs->step();
     std::strcpy(report.result, "ours");
-    compared->step();
+    if (compare)
+      compared->step();
     ours->step();
     std::strcpy(report.result, "different");
     const auto expected = outcome(*theirs);
-    if (!same_bits(expected, outcome(*ours)) || !same_bits(expected, outcome(*compared)) || report.difference != 0.0)
+    if (!same_bits(expected, outcome(*ours)) || (compare && !same_bits(expected, outcome(*compared)))
+        || report.difference != 0.0)
       return;
     report.contacts += static_cast<long>(ours->getLastCollisionResult().getNumContacts());
   }

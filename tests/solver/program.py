@@ -1,0 +1,61 @@
+"""The program of ``check.cpp``: built with CMake at its first use, asked for some scenes of one model."""
+
+from __future__ import annotations
+
+import fcntl
+import subprocess
+from pathlib import Path
+from typing import NamedTuple
+
+from oracle.models import dart_data
+
+SOURCE = Path(__file__).parent
+ROOT = SOURCE.parents[1]
+BUILD = ROOT / "build" / "solver"
+
+DETECTORS = ("dart", "fcl", "bullet", "ode")
+VARIATIONS = ("plain", "joints", "surface", "joined", "pile")  # scenes.hpp
+
+
+class Scene(NamedTuple):
+    """One scene's outcome, as ``check.cpp`` describes it."""
+
+    detector: str
+    variation: str
+    result: str
+    steps: int
+    contacts: int
+    rows: int
+    difference: float
+
+
+def models(*suffixes: str) -> list[Path]:
+    """All files of the package's data and of DART's own that may be models; skel_old/ is of a format of the past."""
+    folders = (ROOT / "data", dart_data())
+    files = (path for folder in folders for path in sorted(folder.rglob("*")))
+    return [path for path in files if path.suffix in suffixes and "skel_old" not in path.parts]
+
+
+def check(model: Path, steps: int, scenes: list[tuple[str, str]]) -> list[Scene]:
+    """Compare the solvers in scenes, given as (detector, variation)."""
+    arguments = [word for scene in scenes for word in scene]
+    done = subprocess.run(
+        [_build(), str(steps), str(model), *arguments], capture_output=True, text=True, check=True, errors="replace"
+    )
+    return [_read(line) for line in done.stdout.splitlines()]
+
+
+def _read(line: str) -> Scene:
+    detector, variation, result, *numbers = line.split()
+    steps, contacts, rows, difference = (number.partition("=")[2] for number in numbers)
+    return Scene(detector, variation, result, int(steps), int(contacts), int(rows), float(difference))
+
+
+def _build() -> Path:
+    BUILD.mkdir(parents=True, exist_ok=True)
+    with (BUILD / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # several test processes may start at once
+        for command in (["cmake", "-S", str(SOURCE), "-B", str(BUILD)], ["cmake", "--build", str(BUILD), "-j2"]):
+            done = subprocess.run(command, capture_output=True, text=True)
+            assert done.returncode == 0, f"{' '.join(command)} failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}"
+    return BUILD / "check"

@@ -1,0 +1,71 @@
+"""The fast constraint solver gives the bits of the engine's own: states, contact forces, constraint matrices.
+
+In all models that the engine loads, with its four collision detectors, as the models are and with joints, contacts and
+constraints of all kinds (scenes.hpp).  `make test-solver` runs the long form.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from .program import DETECTORS, VARIATIONS, Scene, check, models
+
+Scenes = list[tuple[str, str]]
+
+
+def compare(files: list[Path], steps: int, scenes: list[Scenes]) -> list[Scene]:
+    """Outcomes of all scenes, two models at a time; fails if one differs."""
+    with ThreadPoolExecutor(2) as pool:
+        outcomes = list(pool.map(lambda file, some: check(file, steps, some), files, scenes))
+    wrong = [
+        f"{file.name}: {scene}"
+        for file, some in zip(files, outcomes)
+        for scene in some
+        if scene.result not in ("equal", "refused", "engine") or scene.difference != 0.0
+    ]
+    assert not wrong, "\n".join(wrong)
+    for file, some in zip(files, outcomes):
+        for scene in some:
+            if scene.result == "engine":
+                print(f"{file.name}: the engine ends the process itself in step {scene.steps} of {scene[:2]}")
+    return [scene for some in outcomes for scene in some]
+
+
+def test_every_model() -> None:
+    """A few steps, with three of the twenty pairs of detector and variation for each model in turn."""
+    files = models(".skel", ".urdf", ".sdf", ".vsk")
+    pairs = itertools.cycle(itertools.product(VARIATIONS, DETECTORS))
+    scenes = [[(detector, variation) for variation, detector in itertools.islice(pairs, 3)] for _ in files]
+    outcomes = compare(files, 10, scenes)
+    equal = [scene for scene in outcomes if scene.result == "equal"]
+    assert len(equal) > 0.85 * len(outcomes)
+    pairs_seen = Counter((scene.detector, scene.variation) for scene in equal)
+    assert len(pairs_seen) == 20
+    assert min(pairs_seen.values()) >= 10
+    assert sum(scene.contacts for scene in equal) > 5_000
+    assert max(scene.rows for scene in equal) > 100
+
+
+def test_bodies_at_rest_on_each_other() -> None:
+    """Many steps with many contacts, among them skeletons that two groups of constraints share."""
+    names = {"cubes.skel", "softBodies.skel", "fullbody1.skel"}
+    files = [file for file in models(".skel") if file.name in names and "data" in file.parts]
+    scenes: Scenes = [("fcl", "pile"), ("dart", "pile"), ("bullet", "plain"), ("ode", "joined"), ("dart", "surface")]
+    outcomes = compare(files, 200, [scenes] * len(files))
+    assert {scene.result for scene in outcomes} == {"equal"}
+    assert min(scene.contacts for scene in outcomes if scene.variation == "pile") > 1_000
+
+
+@pytest.mark.solver
+@pytest.mark.parametrize("file", models(".skel", ".urdf", ".sdf", ".vsk", ".xml", ".world"), ids=lambda file: file.name)
+def test_thousand_steps(file: Path) -> None:
+    """As the model is with each detector, and each variation with one of them."""
+    scenes: Scenes = [(detector, "plain") for detector in DETECTORS]
+    first = sum(file.name.encode())
+    scenes += [(DETECTORS[(first + i) % len(DETECTORS)], name) for i, name in enumerate(VARIATIONS[1:])]
+    compare([file] * len(scenes), 1000, [[scene] for scene in scenes])

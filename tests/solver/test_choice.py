@@ -1,0 +1,133 @@
+"""Choosing the constraint solver, and the worlds of the documentation with both."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import pydart2
+from pydart2.constraints import BallJointConstraint
+
+Array = NDArray[np.float64]
+
+
+def skel(name: str) -> pydart2.World:
+    return pydart2.World(0.001, pydart2.data_path(f"skel/{name}.skel"))
+
+
+def standing_atlas() -> pydart2.World:
+    scene = json.loads(Path(pydart2.data_path("sdf/atlas/standing.json")).read_text(encoding="ascii"))
+    world = pydart2.World(scene["time_step"], pydart2.data_path(scene["world"]))
+    robot = world.add_skeleton(pydart2.data_path(scene["robot"]))
+    robot.set_positions(scene["q"])
+    for dof in robot.dofs[6:]:
+        dof.set_spring_stiffness(scene["stiffness"])
+        dof.set_rest_position(dof.position())
+        dof.set_damping_coefficient(scene["damping"])
+    return world
+
+
+def held_cubes() -> pydart2.World:
+    """A ball joint between two of the cubes that lie on each other."""
+    world = skel("cubes")
+    plate, cube = (world.skeletons[i].bodynodes[0] for i in (1, 2))
+    BallJointConstraint(plate, cube, cube.C - np.array([0.0, 0.05, 0.0])).add_to_world(world)
+    return world
+
+
+def results(world: pydart2.World, steps: int) -> bytes:
+    """States and contacts of all steps, bit by bit."""
+    seen = []
+    for _ in range(steps):
+        world.step()
+        seen.append(world.x.tobytes())
+        seen += [contact.force.tobytes() + contact.point.tobytes() for contact in world.collision_result.contacts]
+    return b"".join(seen)
+
+
+def with_solver(make: Callable[[], pydart2.World], name: str, steps: int) -> bytes:
+    world = make()
+    world.set_constraint_solver(name)
+    return results(world, steps)
+
+
+@pytest.mark.parametrize(
+    ("make", "steps"),
+    [(standing_atlas, 100), (held_cubes, 1000), (lambda: skel("fullbody1"), 300), (lambda: skel("softBodies"), 60)],
+    ids=["Atlas", "cubes", "fullbody1", "softBodies"],
+)
+def test_same_bits(make: Callable[[], pydart2.World], steps: int) -> None:
+    assert with_solver(make, "fast", steps) == with_solver(make, "dart", steps)
+
+
+@pytest.mark.parametrize("detector", range(4))
+def test_change_while_running(detector: int) -> None:
+    """Each change keeps collision detector, filter, contacts and constraints."""
+    worlds = [held_cubes() for _ in range(2)]
+    for world in worlds:
+        world.set_collision_detector(detector)
+        world.step(200)
+    for i in range(50):
+        worlds[0].set_constraint_solver(("dart", "fast")[i % 2])
+        assert [len(w.collision_result.contacts) for w in worlds] == [len(worlds[1].collision_result.contacts)] * 2
+        assert results(worlds[0], 5) == results(worlds[1], 5)
+    assert worlds[0].collision_detector() == detector
+
+
+def test_names(cubes: pydart2.World) -> None:
+    assert cubes.constraint_solver() == "fast"
+    cubes.set_constraint_solver("dart")
+    assert cubes.constraint_solver() == "dart"
+    with pytest.raises(ValueError, match="no constraint solver 'quick'; there are fast and dart"):
+        cubes.set_constraint_solver("quick")
+    assert cubes.constraint_solver() == "dart"
+
+
+@pytest.mark.parametrize("name", ["", "fast", "dart", "quick"])
+def test_environment_variable(name: str) -> None:
+    code = "import pydart2; print(pydart2.World(0.1).constraint_solver(), pydart2.engine_info().solver)"
+    environment = os.environ | {"PYDART2_SOLVER": name}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)
+    if name == "quick":
+        assert "ValueError: environment variable PYDART2_SOLVER: no constraint solver 'quick'" in done.stderr
+    else:
+        assert done.stdout.split() == [name or "fast"] * 2
+
+
+def test_check_collision_without_a_step() -> None:
+    """The contact forces of a state, the same as the next step's, and the state stays."""
+    world = skel("cubes")
+    world.step(1500)
+    before = world.x
+    world.check_collision()
+    found = {solver: None for solver in ("fast", "dart")}
+    for solver in found:
+        world.set_constraint_solver(solver)
+        world.check_collision()
+        found[solver] = [contact.f.tolist() for contact in world.collision_result.contacts]
+    assert found["fast"] == found["dart"] != []
+    np.testing.assert_array_equal(world.x, before)
+
+
+def test_threads() -> None:
+    """Worlds that step at the same time do as they do one after the other."""
+    with ThreadPoolExecutor(2) as pool:
+        together = list(pool.map(lambda _: results(skel("fullbody1"), 300), range(2)))
+    assert together == [results(skel("fullbody1"), 300)] * 2
+
+
+def test_engine_info() -> None:
+    info = pydart2.engine_info()
+    assert info.dart.startswith("6.")
+    assert info.solver == os.environ.get("PYDART2_SOLVER", "fast")
+    if info.prefix == "/usr":
+        assert info.assertions, "Debian builds DART with its assertions"
