@@ -1,8 +1,8 @@
 """Steps per second with the fast constraint solver against the engine's own, in one run.
 
 Both worlds step in turn, a hundred steps at a time through the same states, and the processor time of the thread
-counts, so that what else runs on the machine hits both alike and little. Prints for each scene the ratio over all steps and the
-quartiles of the pieces, and the mean times of a step.
+counts, so that what else runs on the machine hits both alike and little. Prints for each scene the ratio over all
+steps and the quartiles of the pieces, and the mean times of a step.
 """
 
 from __future__ import annotations
