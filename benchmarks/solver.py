@@ -39,7 +39,7 @@ def atlas() -> pydart2.World:
 # World, steps, and the ratio to reach.
 SCENES = {
     "cubes": (lambda: skel("cubes", 0.001), 20_000, 1.65),
-    "fullbody1": (lambda: skel("fullbody1", 1.0 / 2000.0), 3_000, 2.7),
+    "fullbody1": (lambda: skel("fullbody1", 1.0 / 2000.0), 2_000, 2.7),
     "Atlas on the ground": (atlas, 3_000, 2.1),
     "shapes": (lambda: skel("shapes", 0.001), 3_000, None),
     "softBodies": (lambda: skel("softBodies", 0.001), 500, None),

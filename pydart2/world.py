@@ -394,6 +394,18 @@ class World:
         """Name of the constraint solver, "fast" or "dart"."""
         return self._handle.constraint_solver()
 
+    def set_contact_reduction(self, enable: bool = True) -> None:
+        """Let at most four contacts of each pair of faces bear forces, those that span the largest area.
+
+        Off by default. Faster where bodies meet in many points, but the results are no longer the engine's: the forces
+        of a face spread over other points. The other contacts stay in `collision_result`, with force 0.
+        """
+        self._handle.set_contact_reduction(enable)
+
+    def contact_reduction(self) -> bool:
+        """Whether contacts of a pair of faces are reduced to four."""
+        return self._handle.contact_reduction()
+
     # Recording
 
     def is_recording(self) -> bool:

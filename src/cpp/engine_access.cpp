@@ -44,6 +44,11 @@ struct ContactNormalA : Private<ContactConstraint, Normals> { friend constexpr t
 struct ContactNormalB : Private<ContactConstraint, Normals> { friend constexpr type member(ContactNormalB); };
 struct PrimarySlip : Private<ContactConstraint, double> { friend constexpr type member(PrimarySlip); };
 struct SecondarySlip : Private<ContactConstraint, double> { friend constexpr type member(SecondarySlip); };
+struct ContactOf
+{
+  using type = const dart::collision::Contact& (ContactConstraint::*)() const;
+  friend constexpr type member(ContactOf);
+};
 struct DynamicBody1 : Private<DynamicJointConstraint, BodyNode*> { friend constexpr type member(DynamicBody1); };
 struct DynamicBody2 : Private<DynamicJointConstraint, BodyNode*> { friend constexpr type member(DynamicBody2); };
 struct BallJacobian1 : Private<Ball, BallJacobian> { friend constexpr type member(BallJacobian1); };
@@ -63,6 +68,7 @@ template struct Reveal<ContactNormalA, &ContactConstraint::mSpatialNormalA>;
 template struct Reveal<ContactNormalB, &ContactConstraint::mSpatialNormalB>;
 template struct Reveal<PrimarySlip, &ContactConstraint::mPrimarySlipCompliance>;
 template struct Reveal<SecondarySlip, &ContactConstraint::mSecondarySlipCompliance>;
+template struct Reveal<ContactOf, &ContactConstraint::getContact>;
 template struct Reveal<DynamicBody1, &DynamicJointConstraint::mBodyNode1>;
 template struct Reveal<DynamicBody2, &DynamicJointConstraint::mBodyNode2>;
 template struct Reveal<BallJacobian1, &Ball::mJacobian1>;
@@ -149,6 +155,13 @@ void read_rows(const ConstraintBase& constraint, Rows& rows)
     rows.joint = dof_rows(mimic.*member(MimicJoint()), mimic.*member(MimicActive()));
     rows.force_mixing = Mimic::getConstraintForceMixing();
   }
+}
+
+const dart::collision::Contact* contact(const ConstraintBase& constraint)
+{
+  if (typeid(constraint) != typeid(ContactConstraint))
+    return nullptr;
+  return &(static_cast<const ContactConstraint&>(constraint).*member(ContactOf()))();
 }
 
 } // namespace pydart2::engine

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <dart/collision/Contact.hpp>
 #include <dart/constraint/ConstraintBase.hpp>
 #include <dart/dynamics/GenericJoint.hpp>
 
@@ -47,6 +48,9 @@ struct Rows
 
 /// The rows of a constraint; unknown for classes that are not listed above and for classes derived from them.
 void read_rows(const dart::constraint::ConstraintBase& constraint, Rows& rows);
+
+/// The contact of a contact constraint between rigid bodies, null for other constraints.
+const dart::collision::Contact* contact(const dart::constraint::ConstraintBase& constraint);
 
 /// (J' I J)^-1 of a joint, I the articulated inertia of its child body without implicit damping and springs. Valid once
 /// the articulated inertia is up to date (BodyNode::getArticulatedInertia). The member is protected: a derived class may

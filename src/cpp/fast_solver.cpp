@@ -6,6 +6,7 @@
 #include <dart/external/odelcpsolver/common.h>
 #include <set>
 
+#include "contact_reduction.hpp"
 #include "errors.hpp"
 
 namespace pydart2 {
@@ -55,6 +56,16 @@ Solver installed_solver(const dart::simulation::World& world)
   return fast == nullptr ? Solver::dart : fast->solver();
 }
 
+void set_contact_reduction(dart::simulation::World& world, bool enable)
+{
+  dynamic_cast<FastConstraintSolver&>(*world.getConstraintSolver()).set_contact_reduction(enable);
+}
+
+bool contact_reduction(const dart::simulation::World& world)
+{
+  return dynamic_cast<const FastConstraintSolver&>(*world.getConstraintSolver()).contact_reduction();
+}
+
 void FastConstraintSolver::setFromOtherConstraintSolver(const ConstraintSolver& from)
 {
   auto& other = const_cast<ConstraintSolver&>(from); // its collision group is shared, not changed
@@ -75,6 +86,8 @@ void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
 {
   if (&group == &mConstrainedGroups.front())
     shared_ = solver_ == Solver::fast && mConstrainedGroups.size() > 1 && groups_share_skeletons();
+  if (contact_reduction_)
+    keep_extremal_contacts(group);
   if (solver_ == Solver::dart || shared_) {
     BoxedLcpConstraintSolver::solveConstrainedGroup(group);
     return;

@@ -23,6 +23,10 @@ Solver default_solver();
 void install_solver(dart::simulation::World& world, Solver solver);
 Solver installed_solver(const dart::simulation::World& world);
 
+/// Leaves out contacts that the others of a face pair make up for (contact_reduction.hpp); of a world with our solver.
+void set_contact_reduction(dart::simulation::World& world, bool enable);
+bool contact_reduction(const dart::simulation::World& world);
+
 /// DART's constraint solver with a faster way to the constraint matrix (ConstraintMatrix). All else is DART's own:
 /// collision detection, the making and grouping of constraints, the right-hand sides and bounds, the LCP solvers.
 class FastConstraintSolver final : public dart::constraint::BoxedLcpConstraintSolver
@@ -31,6 +35,8 @@ public:
   /// `dart` turns all over to the base class.
   void set_solver(Solver solver) { solver_ = solver; }
   Solver solver() const { return solver_; }
+  void set_contact_reduction(bool enable) { contact_reduction_ = enable; }
+  bool contact_reduction() const { return contact_reduction_; }
 
   /// Takes over what `other` has, its collision group included: a new one would change the order of the contacts.
   void setFromOtherConstraintSolver(const dart::constraint::ConstraintSolver& other) override;
@@ -45,6 +51,7 @@ private:
   void solve_lcp_again(dart::constraint::ConstrainedGroup& group);
 
   Solver solver_ = Solver::fast;
+  bool contact_reduction_ = false;
   bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
   ConstraintMatrix matrix_;
 };

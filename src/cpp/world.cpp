@@ -294,6 +294,16 @@ void WorldHandle::set_constraint_solver(const std::string& name)
   install_solver(*world().world, solver_named(name));
 }
 
+bool WorldHandle::contact_reduction() const
+{
+  return pydart2::contact_reduction(*world().world);
+}
+
+void WorldHandle::set_contact_reduction(bool enable)
+{
+  pydart2::set_contact_reduction(*world().world, enable);
+}
+
 void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)
 {
   auto& record = world();

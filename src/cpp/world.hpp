@@ -64,6 +64,10 @@ public:
   std::string constraint_solver() const;
   void set_constraint_solver(const std::string& name);
 
+  /// At most four contacts of each pair of faces.
+  bool contact_reduction() const;
+  void set_contact_reduction(bool enable);
+
   /// Two bodies that do not collide with each other, or do again.
   void ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore);
   void ignore_no_pair();

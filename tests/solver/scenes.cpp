@@ -10,6 +10,7 @@
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
 #include <dart/dynamics/RevoluteJoint.hpp>
+#include <dart/dynamics/SoftBodyNode.hpp>
 #include <dart/dynamics/WeldJoint.hpp>
 #include <dart/utils/mjcf/MjcfParser.hpp>
 #include <fstream>
@@ -210,10 +211,19 @@ void join(World& world)
   }
 }
 
+/// Where a pile stands: on the first soft body, else away from all else on the floor.
+Eigen::Vector3d pile_ground(World& world)
+{
+  for (std::size_t s = 0; s < world.getNumSkeletons(); ++s)
+    if (world.getSkeleton(s)->getNumSoftBodyNodes() > 0)
+      return world.getSkeleton(s)->getSoftBodyNode(0)->getCOM() + Eigen::Vector3d(0.0, 0.1, 0.0);
+  return {5.0, lowest(world), 5.0};
+}
+
 /// Pairs of jointed boxes, one pair over the other: contacts join their skeletons one after the other.
 void add_pile(World& world, Random& random)
 {
-  const double floor = lowest(world);
+  const Eigen::Vector3d ground = pile_ground(world);
   for (int i = 0; i < 4; ++i) {
     auto skeleton = dart::dynamics::Skeleton::create("pile " + std::to_string(i));
     auto* lower = add_box<dart::dynamics::FreeJoint>(skeleton, nullptr, Eigen::Vector3d(0.3, 0.1, 0.3));
@@ -224,7 +234,7 @@ void add_pile(World& world, Random& random)
     upper->getParentJoint()->setLimitEnforcement(true);
     upper->getParentJoint()->getDof(0)->setPositionLimits(-0.01, 0.01);
     upper->getParentJoint()->getDof(0)->setCoulombFriction(0.05);
-    T.translation() = Eigen::Vector3d(5.0, floor + 0.051 + 0.1 * i, 5.0 + uniform(random, -0.1, 0.1));
+    T.translation() = ground + Eigen::Vector3d(0.0, 0.051 + 0.1 * i, uniform(random, -0.1, 0.1));
     dart::dynamics::FreeJoint::setTransform(lower, T);
     world.addSkeleton(skeleton);
   }

@@ -125,6 +125,32 @@ def test_threads() -> None:
     assert together == [results(skel("fullbody1"), 300)] * 2
 
 
+def test_contact_reduction_keeps_the_sum_of_forces() -> None:
+    """Atlas stands on four contacts a foot instead of nine, and they bear its weight."""
+    world = standing_atlas()
+    assert not world.contact_reduction()
+    world.set_contact_reduction(True)
+    world.step(500)
+    robot = world.skeletons[-1]
+    forces = []
+    for _ in range(200):
+        world.step()
+        bearing = [contact for contact in world.collision_result.contacts if np.any(contact.f)]
+        assert len(world.collision_result.contacts) > len(bearing) > 4
+        assert len(bearing) <= 8
+        forces.append(sum(abs(contact.f[1]) for contact in bearing))
+    assert np.mean(forces) == pytest.approx(9.81 * robot.m, rel=0.01)
+
+
+def test_reduced_contacts_do_not_depend_on_the_solver() -> None:
+    worlds = [standing_atlas() for _ in range(2)]
+    for world, name in zip(worlds, ("fast", "dart")):
+        world.set_contact_reduction(True)
+        world.set_constraint_solver(name)
+        assert world.contact_reduction()
+    assert results(worlds[0], 50) == results(worlds[1], 50)
+
+
 def test_engine_info() -> None:
     info = pydart2.engine_info()
     assert info.dart.startswith("6.")

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <dart/constraint/ConstrainedGroup.hpp>
+
+namespace pydart2 {
+
+/// Leaves at most four contacts of each pair of faces in a group: those that span the largest area. The others get no
+/// force. A face pair is what two bodies share along one normal, to 8 degrees. Changes the results: forces spread over
+/// other points, and the sum that the LCP solver finds may differ where friction decides.
+void keep_extremal_contacts(dart::constraint::ConstrainedGroup& group);
+
+} // namespace pydart2
