@@ -62,6 +62,10 @@ protected:
     const int size = static_cast<int>(group.getTotalDimension());
     if (size == 0)
       return;
+    if (is_shared(group)) {
+      BoxedLcpConstraintSolver::solveConstrainedGroup(group);
+      return;
+    }
     ConstraintMatrix::Matrix ours(size, dPAD(size));
     matrix_.read(group, mSkeletons);
     matrix_.fill(group, mTimeStep, ours);
@@ -72,6 +76,25 @@ protected:
   }
 
 private:
+  /// Whether an earlier group of this step has acted on a skeleton of this one. Then what it has left there counts, and any
+  /// other impulse would change the outcome.
+  bool is_shared(ConstrainedGroup& group) const
+  {
+    std::vector<bool> before;
+    for (const auto& skeleton : mSkeletons) {
+      before.push_back(skeleton->isImpulseApplied());
+      skeleton->setImpulseApplied(false);
+    }
+    for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
+      group.getConstraint(i)->excite();
+    bool shared = false;
+    for (std::size_t i = 0; i < mSkeletons.size(); ++i) {
+      shared |= before[i] && mSkeletons[i]->isImpulseApplied();
+      mSkeletons[i]->setImpulseApplied(before[i]);
+    }
+    return shared;
+  }
+
   /// Unit impulses through the constraints' own functions.
   static ConstraintMatrix::Matrix engine_matrix(ConstrainedGroup& group, Eigen::Index columns)
   {
