@@ -84,8 +84,8 @@ int ConstraintMatrix::add(BodyNode* body, Item& item)
     if (item.rows.kind == Rows::Kind::bodies && !body->isReactive())
       return none;
     const auto skeleton = body->getSkeleton();
-    // The point masses of a soft body move on their own.
-    if (skeleton->getNumSoftBodyNodes() > 0 || std::find(foreign_.begin(), foreign_.end(), skeleton.get()) != foreign_.end()) {
+    const bool foreign = std::find(foreign_.begin(), foreign_.end(), skeleton.get()) != foreign_.end();
+    if (foreign || skeleton->getNumSoftBodyNodes() > 0) { // the point masses of a soft body move on their own
       item.by_engine = true;
       return none;
     }
@@ -204,7 +204,8 @@ void ConstraintMatrix::read_body(int body, int first_row, double* out)
     const int size = ends_[key] - start;
     if (size == 0)
       continue;
-    const auto product = [&](int i) { return directions_.row(i).segment(start, size).transpose().array() * velocity[i]; };
+    const auto columns = directions_.middleCols(start, size).array();
+    const auto product = [&](int i) { return columns.row(i).transpose() * velocity[i]; };
     sum(SumOrder(order), product, values_.data(), size);
     for (int i = 0; i < size; ++i)
       out[direction_rows_[start + i]] += values_[i];

@@ -11,13 +11,13 @@
 
 namespace pydart2 {
 
-/// The matrix A of the linear complementarity problem of a group of constraints, w = A x - b: element (i, j) is the change
-/// of the velocity that row j reads by a unit impulse of row i, A = N M^-1 N' with the rows' directions N and the mass
-/// matrix M. Every element is bitwise the one that dart::constraint::BoxedLcpConstraintSolver computes.
+/// The matrix A of the linear complementarity problem of a group of constraints, w = A x - b: element (i, j) is the
+/// change of the velocity that row j reads by a unit impulse of row i, A = N M^-1 N' with the rows' directions N and
+/// the mass matrix M. Every element is bitwise the one that dart::constraint::BoxedLcpConstraintSolver computes.
 ///
-/// DART sends each unit impulse through the whole skeleton and lets every constraint read its rows. Here it travels only
-/// through bodies that bear a row and their ancestors (TreeImpulses), and each body reads the rows that it bears at once.
-/// Constraints that this does not know, and those on the same skeletons as these, take DART's way.
+/// DART sends each unit impulse through the whole skeleton and lets every constraint read its rows. Here it travels
+/// only through bodies that bear a row and their ancestors (TreeImpulses), and each body reads the rows that it bears
+/// at once. Constraints that this does not know, and those on the same skeletons as these, take DART's way.
 class ConstraintMatrix
 {
 public:
@@ -32,8 +32,8 @@ public:
 private:
   using Skeleton = dart::dynamics::Skeleton;
 
-  /// A constraint of the group, and the numbers in trees_ of the bodies that its rows act on: the child body of a joint, or
-  /// two bodies; `none` for one that is missing or that no impulse moves.
+  /// A constraint of the group, and the numbers in trees_ of the bodies that its rows act on: the child body of a
+  /// joint, or two bodies; `none` for one that is missing or that no impulse moves.
   struct Item
   {
     engine::Rows rows;
@@ -64,8 +64,8 @@ private:
   std::vector<const Skeleton*> foreign_; ///< Skeletons that constraints of unknown kinds act on.
   std::vector<JointReading> joint_readings_;
 
-  // Directions of all rows at bodies, a column each, component by component in memory; sorted by body, order of summation
-  // and row. A body's columns of one order run from starts_ to ends_; starts_ moves past rows that are done.
+  // Directions of all rows at bodies, a column each, component by component in memory; sorted by body, order of
+  // summation and row. A body's columns of one order run from starts_ to ends_; starts_ moves past rows that are done.
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> directions_;
   std::vector<int> direction_rows_, starts_, ends_;
   Eigen::ArrayXd values_;

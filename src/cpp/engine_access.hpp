@@ -6,15 +6,16 @@
 #include <dart/constraint/ConstraintBase.hpp>
 #include <dart/dynamics/GenericJoint.hpp>
 
-/// What the fast solver must know of the engine's objects and the engine keeps to itself: the rows of its constraints and
-/// the inverse projected inertia of its joints. Read only.
+/// What the fast solver must know of the engine's objects and the engine keeps to itself: the rows of its constraints
+/// and the inverse projected inertia of its joints. Read only.
 namespace pydart2::engine {
 
-/// Up to six rows of a constraint at one body: column i is the impulse on the body, a wrench in its frame, that goes with
-/// a unit impulse of row i, and by duality what row i reads of the body's velocity change.
+/// Up to six rows of a constraint at one body: column i is the impulse on the body, a wrench in its frame, that goes
+/// with a unit impulse of row i, and by duality what row i reads of the body's velocity change.
 using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
-/// The order in which the engine, through Eigen, sums the six terms of direction . velocity; the last bits depend on it.
+/// The order in which the engine, through Eigen, sums the six terms of direction . velocity; the last bits depend on
+/// it.
 enum class SumOrder {
   lanes,   ///< (0 + (2 + 4)) + (1 + (3 + 5)): contacts, whose directions are contiguous columns.
   halves,  ///< (0 + (1 + 2)) + (3 + (4 + 5)): the third row of a ball joint's 3x6 Jacobian.
@@ -53,8 +54,8 @@ void read_rows(const dart::constraint::ConstraintBase& constraint, Rows& rows);
 const dart::collision::Contact* contact(const dart::constraint::ConstraintBase& constraint);
 
 /// (J' I J)^-1 of a joint, I the articulated inertia of its child body without implicit damping and springs. Valid once
-/// the articulated inertia is up to date (BodyNode::getArticulatedInertia). The member is protected: a derived class may
-/// name it.
+/// the articulated inertia is up to date (BodyNode::getArticulatedInertia). The member is protected: a derived class
+/// may name it.
 template <class Space>
 struct InverseProjectedInertia : dart::dynamics::GenericJoint<Space>
 {

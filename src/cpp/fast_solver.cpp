@@ -169,8 +169,9 @@ void FastConstraintSolver::solve_lcp(ConstrainedGroup& group)
     mHiBackup = mHi;
     mFIndexBackup = mFIndex;
   }
+  const auto size = static_cast<int>(mX.size());
   const bool solved = mBoxedLcpSolver->solve(
-      static_cast<int>(mX.size()), mA.data(), mX.data(), mB.data(), 0, mLo.data(), mHi.data(), mFIndex.data(), has_second);
+      size, mA.data(), mX.data(), mB.data(), 0, mLo.data(), mHi.data(), mFIndex.data(), has_second);
   if (has_second && (!solved || mX.hasNaN()))
     solve_lcp_again(group);
   if (mX.hasNaN()) {

@@ -18,8 +18,8 @@ const char* name_of(Solver solver);
 /// What a new world gets: "fast", or what the environment variable PYDART2_SOLVER names.
 Solver default_solver();
 
-/// Gives a world a constraint solver. Its collision detector, contacts, constraints and LCP solvers stay as they are, and so
-/// does the order of its contacts.
+/// Gives a world a constraint solver. Its collision detector, contacts, constraints and LCP solvers stay as they are,
+/// and so does the order of its contacts.
 void install_solver(dart::simulation::World& world, Solver solver);
 Solver installed_solver(const dart::simulation::World& world);
 

@@ -23,8 +23,8 @@ namespace pydart2 {
 ///   a = AdInv(T) dV_parent,   dq = P (tau - G a),   dV = a + J dq.
 /// A joint whose motion is prescribed, or that has none, passes b up and a down as they are.
 ///
-/// K and G are the products that DART forms in each of these steps, from left to right; formed once and written with the
-/// same Eigen types they leave every bit of the results as DART has it.
+/// K and G are the products that DART forms in each of these steps, from left to right; formed once and written with
+/// the same Eigen types they leave every bit of the results as DART has it.
 class TreeImpulses
 {
 public:
@@ -45,7 +45,8 @@ public:
   /// Number of a body, which is added with its ancestors if it is new. Numbers grow from the root to the leaves.
   int add(dart::dynamics::BodyNode& body);
 
-  /// Velocity changes of a tree are wanted at `body` for the impulses of rows up to `row`; rows come in ascending order.
+  /// Velocity changes of a tree are wanted at `body` for the impulses of rows up to `row`; rows come in ascending
+  /// order.
   void need(int body, int row) { bodies_[body].last_row = row; }
 
   /// Reads the engine's state, once all bodies are there.
@@ -59,7 +60,8 @@ public:
   int next(int body) const { return bodies_[body].next; }
   int last_row(int body) const { return bodies_[body].last_row; }
 
-  /// An impulse for the next solve(): a wrench on a body in its frame, or a unit impulse at a joint's degree of freedom.
+  /// An impulse for the next solve(): a wrench on a body in its frame, or a unit impulse at a joint's degree of
+  /// freedom.
   void push(int body, const Vector6& impulse) { bodies_[body].bias = -impulse; }
   void push_joint(int body, int dof);
 

@@ -81,8 +81,8 @@ protected:
   }
 
 private:
-  /// Whether an earlier group of this step has acted on a skeleton of this one. Then what it has left there counts, and any
-  /// other impulse would change the outcome.
+  /// Whether an earlier group of this step has acted on a skeleton of this one. Then what it has left there counts, and
+  /// any other impulse would change the outcome.
   bool is_shared(ConstrainedGroup& group) const
   {
     std::vector<bool> before;
@@ -134,7 +134,7 @@ private:
 std::vector<double> outcome(const World& world)
 {
   std::vector<double> numbers;
-  const auto add = [&numbers](const Eigen::VectorXd& v) { numbers.insert(numbers.end(), v.data(), v.data() + v.size()); };
+  const auto add = [&](const Eigen::VectorXd& v) { numbers.insert(numbers.end(), v.data(), v.data() + v.size()); };
   for (std::size_t i = 0; i < world.getNumSkeletons(); ++i) {
     const auto skeleton = world.getSkeleton(i);
     add(skeleton->getPositions());

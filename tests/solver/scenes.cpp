@@ -137,7 +137,8 @@ void vary_joints(World& world, Random& random)
       for (std::size_t i = 0; i < joint->getNumDofs(); ++i) {
         auto* dof = joint->getDof(i);
         if (!root || index % 2 == 0) {
-          dof->setPositionLimits(dof->getPosition() - uniform(random, 0, 0.05), dof->getPosition() + uniform(random, 0, 0.05));
+          const double q = dof->getPosition();
+          dof->setPositionLimits(q - uniform(random, 0, 0.05), q + uniform(random, 0, 0.05));
           dof->setVelocityLimits(-1.0, 1.0);
         }
         dof->setForceLimits(-50.0, 50.0);
