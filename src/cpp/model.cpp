@@ -5,6 +5,7 @@
 #include <dart/dynamics/SoftBodyNode.hpp>
 
 #include "detector.hpp"
+#include "fast_solver.hpp"
 #include "model_shapes.hpp"
 #include "model_joints.hpp"
 
@@ -132,6 +133,11 @@ void visit_model(Archive& archive, WorldRecord& record)
   for (const auto& item : record.skeletons)
     visit_skeleton(archive, *item->skeleton);
   visit_detector(archive, *world.getConstraintSolver());
+  archive.text(
+      [&] { return std::string(name_of(installed_solver(world))); },
+      [&](const auto& name) { install_solver(world, solver_named(name)); });
+  archive.number(
+      [&] { return double(contact_reduction(world)); }, [&](double on) { set_contact_reduction(world, on != 0.0); });
   visit_ignored_pairs(archive, record);
   visit_constraints(archive, record);
 }
