@@ -58,8 +58,7 @@ coverage: setup
 	$(VENV)/bin/coverage report --fail-under=95 --format=total
 
 bench: setup
-	$(VENV)/bin/python benchmarks/step_overhead.py
-	$(VENV)/bin/python benchmarks/reading.py
+	$(VENV)/bin/python benchmarks/run_all.py
 	$(VENV)/bin/python benchmarks/solver.py
 	$(VENV)/bin/pip install --quiet mujoco
 	$(VENV)/bin/python benchmarks/rendering.py

@@ -44,7 +44,7 @@ std::string text(double value)
 class StateWatch
 {
 public:
-  StateWatch(SkeletonRecord& record) : skeleton_(*record.skeleton), structure_(record.structure), dofs_(skeleton_)
+  StateWatch(SkeletonRecord& record) : skeleton_(*record.skeleton), structure_(record.structure), dofs_(record.dofs())
   {
     for (std::size_t i = 0; i < skeleton_.getNumSoftBodyNodes(); ++i)
       for (auto* point : skeleton_.getSoftBodyNode(i)->getPointMasses())
@@ -131,7 +131,7 @@ private:
 
   Skeleton& skeleton_;
   int structure_;
-  DofState dofs_;
+  const DofState& dofs_;
   std::vector<PointMass*> points_;
   std::vector<double> saved_;
 };

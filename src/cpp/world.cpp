@@ -40,11 +40,10 @@ long num_states(const WorldRecord& world)
 void write_states(const WorldRecord& world, double* out)
 {
   for (const auto& record : world.skeletons) {
-    const auto& dofs = record->skeleton->getDofs();
-    for (const auto* dof : dofs)
-      *out++ = dof->getPosition();
-    for (const auto* dof : dofs)
-      *out++ = dof->getVelocity();
+    const DofState& dofs = record->dofs();
+    for (const auto* places : {&dofs.positions, &dofs.velocities})
+      for (const double* place : *places)
+        *out++ = *place;
   }
 }
 

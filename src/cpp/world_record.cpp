@@ -10,6 +10,15 @@
 
 namespace pydart2 {
 
+const DofState& SkeletonRecord::dofs()
+{
+  if (!found_dofs || found_structure != structure) {
+    found_dofs.emplace(*skeleton);
+    found_structure = structure;
+  }
+  return *found_dofs;
+}
+
 WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string source)
   : id(id), world(std::move(world)), source(std::move(source))
 {

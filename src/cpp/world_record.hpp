@@ -4,11 +4,13 @@
 #include <dart/dynamics/Skeleton.hpp>
 #include <dart/simulation/World.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "constraint_record.hpp"
+#include "dof_state.hpp"
 #include "recording.hpp"
 
 namespace pydart2 {
@@ -30,6 +32,12 @@ struct SkeletonRecord
   int structure = 0;
 
   std::shared_ptr<StateWatch> watch = nullptr;
+
+  /// Where the engine keeps the state, found again when the tree has changed.
+  const DofState& dofs();
+
+  std::optional<DofState> found_dofs;
+  int found_structure = 0;
 };
 using SkeletonRef = std::shared_ptr<SkeletonRecord>;
 

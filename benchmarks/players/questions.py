@@ -1,0 +1,108 @@
+"""The questions, asked of any binding: `play(binding)` answers the one on the command line as JSON.
+
+A binding has ``load(scene)``, which returns an object with the calls that are measured: world-wide ``step``,
+``states``, ``set_states``, ``contacts``; of the last skeleton ``q dq M c J T C``, ``set_q``, ``set_tau``, ``num_dofs``.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from typing import Any
+
+import numpy as np
+from clock import once, per_call
+
+
+def step(model: Any, scene: dict[str, Any]) -> dict[str, float]:
+    """Seconds of a step, and a number to compare states by."""
+    start, figures = model.states(), {}
+    loop = range(scene["steps"])
+
+    def steps() -> None:
+        for _ in loop:
+            model.step()
+
+    for name, prepare in model.variants.items():
+        prepare()
+        figures[name] = once(steps, before=lambda: model.set_states(start)) / len(loop)
+    return figures
+
+
+READS = ("q", "dq", "M", "c", "J", "T", "C", "contacts")
+
+
+def access(model: Any, scene: dict[str, Any]) -> dict[str, float]:
+    """Seconds of reading with nothing changed, of writing, and of reading just after q changed."""
+    model.step()
+    figures = {name: per_call(getattr(model, name)) for name in READS}
+    poses = [model.q(), model.q() + 1e-3]
+    tau = np.zeros(model.num_dofs())
+
+    def both(call: Any) -> float:
+        def calls() -> None:
+            for q in poses:
+                model.set_q(q)
+                call()
+
+        return per_call(calls) / 2
+
+    figures["q ="] = both(lambda: None)
+    figures["tau ="] = per_call(lambda: model.set_tau(tau))
+    for name in READS[2:-1]:
+        figures[f"{name} after q ="] = both(getattr(model, name)) - figures["q ="]
+    return figures
+
+
+def control(model: Any, scene: dict[str, Any]) -> dict[str, float]:
+    """Seconds of one step under PD and under stable PD control (Tan, Liu, Turk 2011), as a user would write them."""
+    n, h, start = model.num_dofs(), scene["dt"], model.states()
+    target = np.array(model.q())
+    stiffness, damping = np.full(n, 400.0), np.full(n, 40.0)
+    stiffness[:6] = damping[:6] = 0.0  # the free root
+    implicit = h * np.diag(damping)
+
+    def pd() -> None:
+        model.set_tau(-stiffness * (model.q() - target) - damping * model.dq())
+        model.step()
+
+    def stable_pd() -> None:
+        dq = model.dq()
+        p, d = -stiffness * (model.q() + h * dq - target), -damping * dq
+        ddq = np.linalg.solve(model.M() + implicit, p + d - model.c())
+        model.set_tau(p + d - h * damping * ddq)
+        model.step()
+
+    def run(loop: Any) -> float:
+        return once(lambda: [loop() for _ in range(scene["steps"])], lambda: model.set_states(start)) / scene["steps"]
+
+    return {"PD": run(pd), "stable PD": run(stable_pd)}
+
+
+def resident() -> int:
+    """Bytes of this process in memory."""
+    with open("/proc/self/statm") as statm:
+        return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def load(binding: Any, scene: dict[str, Any]) -> dict[str, float]:
+    """Seconds of loading the scene, and bytes of each further world."""
+    keep = [binding(scene)]
+    seconds = once(lambda: keep.append(binding(scene)), lambda: None)
+    before, count = resident(), 10
+    keep += [binding(scene) for _ in range(count)]
+    return {"seconds": seconds, "bytes": (resident() - before) / count}
+
+
+def play(binding: Any) -> None:
+    """Answer the question on the command line: QUESTION SCENE."""
+    question, scene = sys.argv[1], json.loads(sys.argv[2])
+    if question == "load":
+        figures = load(binding, scene)
+    else:
+        model = binding(scene)
+        for _ in range(scene["warm"]):
+            model.step()
+        figures = {"step": step, "access": access, "control": control}[question](model, scene)
+    print(json.dumps(figures))

@@ -1,0 +1,52 @@
+"""The worlds that are measured, as arguments that every competitor can build them from."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import pydart2
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A world: a SKEL world, a robot to add to it, and the robot's pose and springs."""
+
+    name: str
+    world: str | None
+    robot: str | None = None
+    gravity: float = -9.81  # along y
+    q: list[float] = field(default_factory=list)
+    stiffness: float = 0.0
+    damping: float = 0.0
+    dt: float = 0.001
+    warm: int = 300  # steps before the clock starts: contacts are made
+    steps: int = 300  # timed at a time, always from the same state
+
+    def dump(self) -> str:
+        """For a competitor's command line."""
+        return json.dumps(asdict(self))
+
+
+def _standing_atlas() -> Scene:
+    standing = json.loads(Path(pydart2.data_path("sdf/atlas/standing.json")).read_text(encoding="ascii"))
+    world, robot = (pydart2.data_path(standing[key]) for key in ("world", "robot"))
+    skel = pydart2.World(0.001).add_skeleton(robot)
+    skel.set_positions(standing["q"])
+    q = skel.q.tolist()
+    return Scene("Atlas", world, robot, q=q, stiffness=standing["stiffness"], damping=standing["damping"], steps=100)
+
+
+def scenes() -> dict[str, Scene]:
+    """Scenes by name, from models that come with the package."""
+    skel = {name: pydart2.data_path(f"skel/{name}.skel") for name in ("cubes", "chain", "fullbody1", "softBodies")}
+    found = [
+        Scene("cubes", skel["cubes"], steps=1000),
+        Scene("chain", skel["chain"], steps=2000),
+        Scene("fullbody1", skel["fullbody1"]),
+        Scene("softBodies", skel["softBodies"], warm=100, steps=100),
+        _standing_atlas(),
+        Scene("PR2", None, pydart2.data_path("urdf/PR2/pr2.urdf"), gravity=0.0),
+    ]
+    return {scene.name: scene for scene in found}
