@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from pydart2 import constraints, pydart2_api
+from pydart2.batch import Batch
 from pydart2.bodynode import BodyNode
 from pydart2.collision_result import CollisionResult
 from pydart2.contact import Contact
@@ -61,6 +62,7 @@ papi = pydart2_api
 
 __all__ = [
     "BallJoint",
+    "Batch",
     "BodyNode",
     "CollisionResult",
     "Contact",

@@ -1,6 +1,7 @@
 """The only importer of the extension inside the package."""
 
 from pydart2.pydart2_api import (
+    BatchHandle,
     BodyNodeHandle,
     DofHandle,
     JointHandle,
@@ -21,6 +22,7 @@ from pydart2.pydart2_api import (
 )
 
 __all__ = [
+    "BatchHandle",
     "BodyNodeHandle",
     "DofHandle",
     "JointHandle",

@@ -215,6 +215,18 @@ inline bool read_matrix(PyObject* object, const char* what, PyArrayObject*& owne
   return true;
 }
 
+/// A 2-D array to be filled. False with an error set.
+inline bool read_output(PyObject* object, const char* what, MatrixOut& matrix)
+{
+  auto* array = reinterpret_cast<PyArrayObject*>(object);
+  if (!PyArray_Check(object) || PyArray_TYPE(array) != NPY_DOUBLE || !PyArray_ISCARRAY(array) || PyArray_NDIM(array) != 2) {
+    PyErr_Format(PyExc_TypeError, "%s needs a writeable 2-D float64 array in C order, got %.200R", what, object);
+    return false;
+  }
+  matrix = {static_cast<double*>(PyArray_DATA(array)), PyArray_DIM(array, 0), PyArray_DIM(array, 1)};
+  return true;
+}
+
 /// An argument of the fixed size of an Eigen vector or matrix. False with an error set.
 template <class Matrix>
 bool read_fixed(PyObject* object, const char* what, Matrix& out)

@@ -29,6 +29,7 @@
 %include "skeleton.i"
 %include "model_source.i"
 %include "world.i"
+%include "batch.i"
 
 %pythoncode %{
 from ._pydart2_api import NamedVector

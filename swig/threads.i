@@ -19,3 +19,5 @@
 %long_call(pydart2::WorldHandle::rebuild)
 %long_call(pydart2::WorldHandle::step)
 %long_call(pydart2::WorldHandle::check_collision)
+%long_call(pydart2::BatchHandle::step)
+%long_call(pydart2::BatchHandle::rollout)

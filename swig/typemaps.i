@@ -5,6 +5,7 @@ namespace pydart2 {
 class Output;
 struct VectorIn;
 struct MatrixIn;
+struct MatrixOut;
 }
 
 // Results that an engine method writes straight into an ndarray: a fresh one; one with the names of a pattern, or the
@@ -29,6 +30,11 @@ struct MatrixIn;
   $1 = &matrix;
 }
 %typemap(freearg) const pydart2::MatrixIn& "Py_XDECREF(owner$argnum);"
+
+%typemap(in) const pydart2::MatrixOut& (pydart2::MatrixOut matrix) {
+  if (!pydart2::python::read_output($input, "$1_name", matrix)) SWIG_fail;
+  $1 = &matrix;
+}
 
 %define %fixed_size(TYPE)
 %feature("novaluewrapper") TYPE;

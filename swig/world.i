@@ -2,4 +2,5 @@
 #include "world.hpp"
 %}
 
+%ignore pydart2::WorldHandle::ref;
 %include "world.hpp"

@@ -70,6 +70,8 @@ def argument(declaration: str) -> tuple[str, str]:
         return name, "ModelSource"
     if kind == "Output&":
         return name, {"like": "Vector", "into": "NDArray[np.float64] | None"}.get(name, "")
+    if kind == "const MatrixOut&":
+        return name, "NDArray[np.float64]"
     if kind.endswith("*"):
         return name, "ArrayLike | None"
     return name, ARGUMENTS.get(kind, "ArrayLike")
@@ -111,7 +113,7 @@ def classes(header: str) -> list[str]:
     ):
         methods = [stub for line in body.splitlines() if (stub := method(line))]
         shown = [m for m in methods if "::" not in m and "Ref" not in m and "ShapeHandle, node: " not in m]
-        shown = [m for m in shown if "__init__" not in m or name in ("WorldHandle", "ModelSource")]
+        shown = [m for m in shown if "__init__" not in m or name in ("WorldHandle", "BatchHandle", "ModelSource")]
         stubs.append(f"class {name}:\n" + "\n".join(shown) + "\n")
     return stubs
 

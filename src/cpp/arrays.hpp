@@ -20,6 +20,13 @@ struct MatrixIn
   long rows = 0, cols = 0;
 };
 
+/// Memory of the caller to be filled, row-major, contiguous, not owned: for calls without the interpreter lock.
+struct MatrixOut
+{
+  double* data = nullptr;
+  long rows = 0, cols = 0;
+};
+
 /// Where a method puts its result. The method asks once for memory of the shape that it is about to fill, so that
 /// the engine's numbers are copied once, straight into what the caller gets (a fresh ndarray, swig/typemaps.i).
 class Output

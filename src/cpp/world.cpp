@@ -16,6 +16,7 @@
 #include "model.hpp"
 #include "state.hpp"
 #include "stepping.hpp"
+#include "world_states.hpp"
 
 namespace pydart2 {
 
@@ -27,35 +28,6 @@ dart::simulation::WorldPtr make_world(double time_step)
   auto world = dart::simulation::World::create();
   world->setTimeStep(time_step);
   return world;
-}
-
-long num_states(const WorldRecord& world)
-{
-  long size = 0;
-  for (const auto& record : world.skeletons)
-    size += 2 * static_cast<long>(record->skeleton->getNumDofs());
-  return size;
-}
-
-void write_states(const WorldRecord& world, double* out)
-{
-  for (const auto& record : world.skeletons) {
-    const DofState& dofs = record->dofs();
-    for (const auto* places : {&dofs.positions, &dofs.velocities})
-      for (const double* place : *places)
-        *out++ = *place;
-  }
-}
-
-void read_states(WorldRecord& world, const double* in)
-{
-  for (const auto& record : world.skeletons) {
-    auto& skeleton = *record->skeleton;
-    const auto n = static_cast<long>(skeleton.getNumDofs());
-    skeleton.setPositions(Eigen::Map<const Eigen::VectorXd>(in, n));
-    skeleton.setVelocities(Eigen::Map<const Eigen::VectorXd>(in + n, n));
-    in += 2 * n;
-  }
 }
 
 void record(WorldRecord& world)

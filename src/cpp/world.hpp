@@ -115,6 +115,9 @@ public:
   long recording_limit() const;
   void set_recording_limit(long bytes);
 
+  /// For the C++ of this layer.
+  const WorldRef& ref() const { return record_; }
+
 private:
   explicit WorldHandle(WorldRef record);
   WorldRecord& world() const;

@@ -1,0 +1,5 @@
+%{
+#include "batch.hpp"
+%}
+
+%include "batch.hpp"
