@@ -2,6 +2,7 @@
 # make test   set up, then the tests
 # make docs   docs/_build/html, with a picture or clip of each example
 # make wheel  a wheel that carries DART, and the source archive, in dist/
+# make engine the same DART with -O3 -DNDEBUG in build/engine/prefix; then PYDART2_DART_PREFIX=build/engine/prefix make ...
 # make test-packaging, make test-viewer, make test-solver, make soak, make sanitize, make coverage, make bench
 #   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
@@ -9,7 +10,7 @@ PYTHON ?= python3
 VENV := .venv
 export PYTHON VENV
 
-.PHONY: demo test docs test-packaging test-viewer test-solver soak sanitize coverage bench wheel lint setup clean
+.PHONY: demo test docs test-packaging test-viewer test-solver soak sanitize coverage bench wheel engine lint setup clean
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
@@ -65,6 +66,9 @@ bench: setup
 
 wheel: setup
 	$(VENV)/bin/python tools/make_wheel.py
+
+engine:
+	@tools/engine.sh
 
 lint: setup
 	$(VENV)/bin/ruff check .

@@ -22,9 +22,11 @@ class BuildExtension(build_ext):
     def run(self) -> None:
         in_place = self.inplace or self.editable_mode
         package = ROOT / "pydart2" if in_place else Path(self.build_lib).resolve() / "pydart2"
-        cmake_folder = ROOT / "build" / f"cmake-{sys.implementation.cache_tag}"
+        prefix = os.environ.get("PYDART2_DART_PREFIX", "")  # of another DART than Debian's, as make engine builds
+        cmake_folder = ROOT / "build" / f"cmake-{sys.implementation.cache_tag}{'-prefix' if prefix else ''}"
         require("cmake", "apt-get install cmake")
         configure = ["cmake", "-S", str(ROOT), "-B", str(cmake_folder), f"-DPYDART2_OUTPUT_DIR={package}"]
+        configure.append(f"-DPYDART2_DART_PREFIX={prefix and Path(prefix).resolve()}")
         run_cmake(
             [*configure, f"-DPython3_EXECUTABLE={sys.executable}", f"-DPython3_NumPy_INCLUDE_DIR={numpy_headers()}"]
         )

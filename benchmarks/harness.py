@@ -25,19 +25,21 @@ Player = Callable[[str, Scene], Figures]
 OURS, DEBIAN, PYPI, LOOP = "pydart2", "dartpy 6.12 (Debian)", "dartpy (PyPI)", "C++ loop"
 
 
-def output(*command: str | Path) -> str:
+def output(*command: str | Path, **environment: str) -> str:
     """What a child process prints; if it fails, its errors end this program."""
-    done = subprocess.run([str(c) for c in command], env=ENVIRONMENT, capture_output=True, text=True)
+    env = {**ENVIRONMENT, **environment}
+    done = subprocess.run([str(c) for c in command], env=env, capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, command[:3]))} failed:\n{done.stderr[-2000:]}")
     return done.stdout
 
 
-def python_player(python: str | Path, program: str) -> Player:
+def python_player(python: str | Path, program: str, **environment: str) -> Player:
     """A competitor in Python."""
 
     def play(question: str, scene: Scene) -> Figures:
-        figures: Figures = json.loads(output(python, PLAYERS / program, question, scene.dump()).splitlines()[-1])
+        answer = output(python, PLAYERS / program, question, scene.dump(), **environment)
+        figures: Figures = json.loads(answer.splitlines()[-1])
         return figures
 
     return play
@@ -57,7 +59,8 @@ def loop_player() -> Player:
 
     def play(question: str, scene: Scene) -> Figures:
         numbers = (scene.dt, scene.gravity, scene.stiffness, scene.damping, scene.warm, scene.steps, 3, *scene.q)
-        return {"step": float(output(program, scene.world or "-", scene.robot or "-", *map(str, numbers)))}
+        seconds, _wall = output(program, scene.world or "-", scene.robot or "-", *map(str, numbers)).split()
+        return {"step": float(seconds)}
 
     return play
 

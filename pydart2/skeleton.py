@@ -29,7 +29,7 @@ Part = TypeVar("Part", BodyNode, Joint, Dof)
 
 # What build() makes.
 _PARTS = ("dofs", "joints", "bodynodes", "markers", "name_to_dof", "name_to_joint", "name_to_body", "names")
-_BUILT = frozenset(("world", "id", "_handle", "_like", *_PARTS))
+_BUILT = frozenset(("world", "id", "_handle", "_pattern", *_PARTS))
 
 
 class Controller(Protocol):

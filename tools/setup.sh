@@ -49,9 +49,10 @@ if [ -z "$(find "$venv/.requirements" -newer pyproject.toml 2>/dev/null)" ]; the
 fi
 newer=$(find setup.py pyproject.toml CMakeLists.txt src swig tools/make_stub.py "$venv/.requirements" \
   -newer "$venv/.installed" 2>/dev/null || echo all)
-if [ ! -e "$venv/.installed" ] || [ -n "$newer" ] || ! ls pydart2/_pydart2_api.*.so >/dev/null 2>&1; then
+prefix=${PYDART2_DART_PREFIX:-} # of another DART than Debian's (make engine)
+if [ "$(cat "$venv/.installed" 2>/dev/null || echo none)" != "$prefix" ] || [ -n "$newer" ] || ! ls pydart2/_pydart2_api.*.so >/dev/null 2>&1; then
   say "building and installing pydart2 (a minute or two)"
   "$venv/bin/pip" install --quiet --no-build-isolation -e '.[dev]'
-  touch "$venv/.installed"
+  echo "$prefix" >"$venv/.installed"
 fi
 say "ready"

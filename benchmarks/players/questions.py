@@ -80,6 +80,13 @@ def control(model: Any, scene: dict[str, Any]) -> dict[str, float]:
     return {"PD": run(pd), "stable PD": run(stable_pd)}
 
 
+def states(model: Any, scene: dict[str, Any]) -> list[str]:
+    """The states after 1,000 steps, to the last bit."""
+    for _ in range(1000):
+        model.step()
+    return [number.hex() for number in np.asarray(model.states()).tolist()]
+
+
 def resident() -> int:
     """Bytes of this process in memory."""
     with open("/proc/self/statm") as statm:
@@ -104,5 +111,5 @@ def play(binding: Any) -> None:
         model = binding(scene)
         for _ in range(scene["warm"]):
             model.step()
-        figures = {"step": step, "access": access, "control": control}[question](model, scene)
+        figures = {"step": step, "access": access, "control": control, "states": states}[question](model, scene)
     print(json.dumps(figures))

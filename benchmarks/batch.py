@@ -1,0 +1,77 @@
+"""A batch of 64 fullbody1 on two threads, two Python threads with a world each, and two C++ processes."""
+
+from __future__ import annotations
+
+import subprocess
+import threading
+import time
+
+import numpy as np
+from harness import ROUNDS, Ratio, loop_program, met
+from scenes import scenes
+
+import pydart2
+
+WORLDS, STEPS, THREADS = 64, 60, 2
+SCENE = scenes()["fullbody1"]
+
+
+def warm_world() -> pydart2.World:
+    """fullbody1 on the ground, with DART's own constraint solver."""
+    world = pydart2.World(SCENE.dt, SCENE.world)
+    world.set_recording(False)
+    if hasattr(world, "set_constraint_solver"):
+        world.set_constraint_solver("dart")
+    world.step(SCENE.warm)
+    return world
+
+
+def processes() -> float:
+    """Steps per second that two C++ processes reach together; each does half of the batch's steps."""
+    numbers = (SCENE.dt, SCENE.gravity, 0.0, 0.0, SCENE.warm, STEPS, WORLDS // THREADS)
+    command = [str(loop_program()), str(SCENE.world), "-", *map(str, numbers)]
+    running = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(THREADS)]
+    return sum(1.0 / float(process.communicate()[0].split()[1]) for process in running)
+
+
+def batch(pool: pydart2.Batch) -> float:
+    """Steps per second of a batch."""
+    pool.reset()
+    begin = time.perf_counter()
+    pool.step(STEPS)
+    return WORLDS * STEPS / (time.perf_counter() - begin)
+
+
+def python_threads(worlds: list[pydart2.World], start: np.ndarray) -> float:
+    """Steps per second of Python threads with a world each."""
+    for world in worlds:
+        world.x = start
+    threads = [threading.Thread(target=world.step, args=(SCENE.steps,)) for world in worlds]
+    begin = time.perf_counter()
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return len(worlds) * SCENE.steps / (time.perf_counter() - begin)
+
+
+def main() -> None:
+    """Ratios of steps per second, by the clock on the wall: nothing else should run on the machine."""
+    model = warm_world()
+    start = model.x
+    pool = pydart2.Batch(model, WORLDS, threads=THREADS)
+    worlds = [warm_world() for _ in range(THREADS)]
+    to_processes, to_one = [], []
+    for _ in range(ROUNDS):
+        to_processes.append(batch(pool) / processes())
+        to_one.append(python_threads(worlds, start) / python_threads(worlds[:1], start))
+    ratio, two = Ratio(to_processes), Ratio(to_one)
+    print("## Many worlds\n\nfullbody1, steps per second by the clock on the wall.\n")
+    print(
+        f"Batch of {WORLDS} on {THREADS} threads to two C++ processes: {ratio}, bar {met(ratio, 0.95, at_least=True)}.\n"
+    )
+    print(f"Two Python threads with two worlds to one: {two}, bar {met(two, 1.6, at_least=True)}.")
+
+
+if __name__ == "__main__":
+    main()
