@@ -67,10 +67,9 @@ def main() -> None:
         to_one.append(python_threads(worlds, start) / python_threads(worlds[:1], start))
     ratio, two = Ratio(to_processes), Ratio(to_one)
     print("## Many worlds\n\nfullbody1, steps per second by the clock on the wall.\n")
-    print(
-        f"Batch of {WORLDS} on {THREADS} threads to two C++ processes: {ratio}, bar {met(ratio, 0.95, at_least=True)}.\n"
-    )
-    print(f"Two Python threads with two worlds to one: {two}, bar {met(two, 1.6, at_least=True)}.")
+    bars = met(ratio, 0.95, at_least=True), met(two, 1.6, at_least=True)
+    print(f"Batch of {WORLDS} on {THREADS} threads to {THREADS} C++ processes: {ratio}; {bars[0]}.\n")
+    print(f"Two Python threads with two worlds to one: {two}; {bars[1]}.")
 
 
 if __name__ == "__main__":

@@ -40,9 +40,8 @@ def main() -> None:
     print(table(["scene", OPTIMISED, "bar", "same states"], rows))
     found = rounds(players, "control", scenes()["fullbody1"])
     ratio = Ratio([r[DEBIAN]["stable PD"] / r[OPTIMISED]["stable PD"] for r in found])
-    print(
-        f"\nStable PD loop on fullbody1, steps per second to Debian's dartpy: {ratio}, bar {met(ratio, 1.9, at_least=True)}."
-    )
+    bar = met(ratio, 1.9, at_least=True)
+    print(f"\nStable PD loop on fullbody1, steps per second to Debian's dartpy: {ratio}; {bar}.")
 
 
 if __name__ == "__main__":
