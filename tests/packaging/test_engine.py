@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-
-from .test_builds import ROOT, copy_sources, run
+from test_builds import ROOT, copy_sources, run
 
 PREFIX = ROOT / "build" / "engine" / "prefix"
 STATES = """
