@@ -1,0 +1,209 @@
+"""Loads damaged models: each is loaded or refused with a LoadError, the process lives, and its world still steps.
+
+    python tests/crash/fuzz_models.py 5000 [FIRST]    five thousand files, from number FIRST
+
+File n is the same in each run. One that ends the process is put into ``tests/crash/seeds``, where the tests find it.
+"""
+
+from __future__ import annotations
+
+import collections
+import logging
+import random
+import re
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parents[1]))
+
+import pydart2
+from oracle.models import dart_data
+
+SEEDS = Path(__file__).parent / "seeds"
+NUMBERS = (
+    *("nan", "inf", "-inf", "0", "-0", "-1", "1e308", "-1e308", "1e-308", "1e12", "1e-12", "99999999999999999999"),
+    *("", " ", "x", "1,2", "0x10", "1 2", "1 2 3", "1 2 3 4 5 6 7", "true", "world", "9" * 400, "&lt;", "\u0663"),
+)
+LARGEST = 15_000  # bytes; larger models are slow to load and say the same
+MOST_SECONDS = 10.0
+
+
+def originals() -> list[Path]:
+    """Models of all formats to be damaged: DART's own small ones and ours."""
+    ours = [Path(pydart2.data_path(f"skel/{name}.skel")) for name in ("cubes", "chain", "shapes")]
+    root = dart_data()
+    theirs = (path for path in sorted(root.rglob("*")) if path.suffix in (".skel", ".urdf", ".sdf", ".xml", ".vsk"))
+    readable = (path for path in theirs if path.relative_to(root).parts[0] != "skel_old" and "fetch" not in path.parts)
+    return ours + [path for path in readable if path.is_file() and path.stat().st_size < LARGEST]
+
+
+# Ways to damage a tree
+
+
+def _elements(root: ET.Element) -> list[tuple[ET.Element, ET.Element]]:
+    return [(parent, child) for parent in root.iter() for child in parent]
+
+
+def _delete(root: ET.Element, rng: random.Random) -> None:
+    parent, child = rng.choice(_elements(root))
+    parent.remove(child)
+
+
+def _double(root: ET.Element, rng: random.Random) -> None:
+    parent, child = rng.choice(_elements(root))
+    parent.insert(rng.randrange(len(parent) + 1), child)
+
+
+def _move(root: ET.Element, rng: random.Random) -> None:
+    """Also into what is no parent of its kind."""
+    parent, child = rng.choice(_elements(root))
+    parent.remove(child)
+    rng.choice(list(root.iter())).append(child)
+
+
+def _rename(root: ET.Element, rng: random.Random) -> None:
+    rng.choice(list(root.iter())).tag = rng.choice(list(root.iter())).tag
+
+
+def _number(root: ET.Element, rng: random.Random) -> None:
+    """One number, or a whole text or attribute."""
+    element = rng.choice(list(root.iter()))
+    value = rng.choice(NUMBERS)
+    keys = [*element.attrib, None]
+    key = rng.choice(keys)
+    old = (element.text or "") if key is None else element.attrib[key]
+    numbers = list(re.finditer(r"[-+.\deE]+", old))
+    if numbers and rng.random() < 0.8:
+        at = rng.choice(numbers)
+        value = old[: at.start()] + value + old[at.end() :]
+    if key is None:
+        element.text = value
+    else:
+        element.attrib[key] = value
+
+
+def _attribute(root: ET.Element, rng: random.Random) -> None:
+    """Drop one, or give it the value of another."""
+    with_some = [element for element in root.iter() if element.attrib]
+    if not with_some:
+        return
+    element = rng.choice(with_some)
+    key = rng.choice(list(element.attrib))
+    if rng.random() < 0.5:
+        del element.attrib[key]
+    else:
+        element.attrib[key] = rng.choice(list(rng.choice(with_some).attrib.values()))
+
+
+def _text(root: ET.Element, rng: random.Random) -> None:
+    """The text of another element."""
+    rng.choice(list(root.iter())).text = rng.choice(list(root.iter())).text
+
+
+TREE_CHANGES: tuple[Callable[[ET.Element, random.Random], None], ...] = (
+    *(_delete, _double, _move, _rename, _attribute, _text),
+    *(_number, _number, _number),
+)
+
+
+def _damage_bytes(data: bytes, rng: random.Random) -> bytes:
+    """Flip, cut out, repeat or cut off."""
+    at, length = rng.randrange(len(data)), rng.randrange(1, 40)
+    kind = rng.randrange(4)
+    if kind == 0:
+        return data[:at] + bytes([rng.randrange(256)]) + data[at + 1 :]
+    if kind == 1:
+        return data[:at] + data[at + length :]
+    if kind == 2:
+        return data[:at] + data[at : at + length] * rng.randrange(2, 5) + data[at + length :]
+    return data[:at]
+
+
+def damaged(number: int, models: list[Path]) -> bytes:
+    """Damaged file number `number`."""
+    rng = random.Random(number)
+    data = rng.choice(models).read_bytes()
+    if rng.random() < 0.1:
+        return _damage_bytes(data, rng)
+    try:
+        root = ET.fromstring(data)
+    except ET.ParseError:
+        return _damage_bytes(data, rng)
+    for _ in range(rng.choice((1, 1, 1, 2, 3, 8))):
+        if len(root):
+            rng.choice(TREE_CHANGES)(root, rng)
+    return ET.tostring(root)
+
+
+# Loading them
+
+
+def load(data: bytes) -> str:
+    """Load a model as a user would; says what came of it. Any other exception than the documented ones goes on."""
+    outcome = "loaded"
+    try:
+        pydart2.World(0.001, data, missing_meshes="warn").step(2)
+    except pydart2.LoadError:
+        outcome = "refused"
+    except pydart2.SimulationError:
+        outcome = "cannot be simulated"
+    healthy = pydart2.World(0.001, "skel/cubes.skel")
+    healthy.step(2)
+    if not (healthy.x == healthy.x).all() or healthy.frame != 2:
+        raise AssertionError("the next world does not step")
+    return outcome
+
+
+def work(first: int, count: int) -> None:
+    """Load some, in this process; writes the number before each, and its outcome and time after."""
+    logging.disable(logging.CRITICAL)
+    models = originals()
+    for number in range(first, first + count):
+        print(number, end=" ", flush=True)
+        start = time.monotonic()
+        outcome = load(damaged(number, models))
+        print(f"{time.monotonic() - start:.3f} {outcome}", flush=True)
+
+
+def run(first: int, count: int) -> tuple[collections.Counter[str], list[str]]:
+    """Outcomes and troubles of some files, loaded in other processes, each of which goes on after a LoadError."""
+    outcomes: collections.Counter[str] = collections.Counter()
+    troubles: list[str] = []
+    number, end = first, first + count
+    while number < end:
+        command = [sys.executable, __file__, "--work", str(number), str(end - number)]
+        done = subprocess.run(command, capture_output=True, text=True)
+        for line in done.stdout.splitlines():
+            number = int(line.split()[0]) + 1
+            words = line.split(maxsplit=2)
+            if len(words) == 3:
+                outcomes[words[2]] += 1
+                if float(words[1]) > MOST_SECONDS:
+                    troubles.append(f"file {number - 1} took {words[1]} s")
+        if done.returncode == 0:
+            break
+        troubles.append(f"file {number - 1} ended the process ({done.returncode}):\n{done.stderr[-1500:]}")
+        SEEDS.mkdir(exist_ok=True)
+        (SEEDS / f"model-{number - 1}.xml").write_bytes(damaged(number - 1, originals()))
+    return outcomes, troubles
+
+
+def main() -> None:
+    """Run as many as asked for; exit code 1 if there was trouble."""
+    count, first = int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    outcomes, troubles = run(first, count)
+    print(f"{sum(outcomes.values())} damaged models:", ", ".join(f"{n} {kind}" for kind, n in sorted(outcomes.items())))
+    print(*troubles, sep="\n")
+    sys.exit(bool(troubles))
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "--work":
+        work(int(sys.argv[2]), int(sys.argv[3]))
+    else:
+        main()
