@@ -3,14 +3,18 @@
 # make docs   docs/_build/html, with a picture or clip of each example
 # make wheel  a wheel that carries DART, and the source archive, in dist/
 # make engine the same DART with -O3 -DNDEBUG in build/engine/prefix; then PYDART2_DART_PREFIX=build/engine/prefix make ...
-# make test-packaging, make test-viewer, make test-solver, make soak, make sanitize, make coverage, make bench
-#   see tests/README.md
+# make test-packaging, make test-third-party, make test-viewer, make test-solver, make fuzz, make soak, make sanitize,
+#   make coverage, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
 export PYTHON VENV
 
-.PHONY: demo test docs test-packaging test-viewer test-solver soak sanitize coverage bench wheel engine lint setup clean
+FUZZ_MODELS ?= 5000
+FUZZ_CALLS ?= 1000000
+
+.PHONY: demo test docs test-packaging test-third-party test-viewer test-solver fuzz soak sanitize coverage bench wheel \
+  engine lint setup clean
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
@@ -57,6 +61,15 @@ coverage: setup
 	$(VENV)/bin/gcovr --root . --filter 'src/cpp/' --exclude-throw-branches --txt --html-details build/coverage/html/ \
 	  --fail-under-line 90 build/coverage/cmake
 	$(VENV)/bin/coverage report --fail-under=95 --format=total
+
+# The models in PyPI's pybullet (100 MB), unpacked without installing it.
+test-third-party: setup
+	$(VENV)/bin/python tools/fetch_models.py build/third-party
+	$(VENV)/bin/python -m pytest -m third_party
+
+fuzz: setup
+	$(VENV)/bin/python tests/crash/fuzz_models.py $(FUZZ_MODELS)
+	$(VENV)/bin/python tests/crash/fuzz_api.py $(FUZZ_CALLS)
 
 bench: setup
 	$(VENV)/bin/python benchmarks/run_all.py

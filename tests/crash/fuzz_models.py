@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import collections
 import logging
+import os
 import random
 import re
 import subprocess
@@ -31,6 +32,8 @@ NUMBERS = (
 )
 LARGEST = 15_000  # bytes; larger models are slow to load and say the same
 MOST_SECONDS = 10.0
+#: The processes import the same package.
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(pydart2.__file__).parents[1])}
 
 
 def originals() -> list[Path]:
@@ -177,7 +180,7 @@ def run(first: int, count: int) -> tuple[collections.Counter[str], list[str]]:
     number, end = first, first + count
     while number < end:
         command = [sys.executable, __file__, "--work", str(number), str(end - number)]
-        done = subprocess.run(command, capture_output=True, text=True)
+        done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT)
         for line in done.stdout.splitlines():
             number = int(line.split()[0]) + 1
             words = line.split(maxsplit=2)

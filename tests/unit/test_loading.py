@@ -335,6 +335,17 @@ def test_a_mesh_that_is_none(tmp_path: Path) -> None:
     assert "bad.stl" in error.reason
 
 
+def test_lines_in_a_mesh(tmp_path: Path) -> None:
+    """The engine would read beyond a line's two corners; they are left out of a skeleton, refused in a world."""
+    write(tmp_path / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 2 3\nf 1 2 3\n")
+    path = write(tmp_path / "model", with_mesh("urdf", "a.obj", "collision"))
+    World(0.001, path).step(3)
+    text = with_mesh("skel", "a.obj", "collision").replace("<skel>", "<skel><world name='w'>")
+    # What lies beyond decides whether the helper lives to say so.
+    with pytest.raises(LoadError, match=r"has lines or points, which the engine cannot read in a world|SIGSEGV"):
+        World(0.001, write(tmp_path / "model", text.replace("</skel>", "</world></skel>")))
+
+
 def test_a_mesh_changes_after_a_trial(world: World, tmp_path: Path) -> None:
     """A file that worked is not tried again, unless its mesh has changed."""
     triangle(tmp_path / "a.stl")

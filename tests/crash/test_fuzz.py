@@ -1,0 +1,26 @@
+"""A short run of each fuzzer, and the files that once ended the process. `make fuzz` runs a million calls."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from crash import fuzz_api, fuzz_models
+
+
+def test_damaged_models() -> None:
+    outcomes, troubles = fuzz_models.run(1_000_000, 120)
+    assert troubles == [] and sum(outcomes.values()) == 120
+    assert outcomes["loaded"] > 20 and outcomes["refused"] > 20
+
+
+@pytest.mark.parametrize("seed", sorted(fuzz_models.SEEDS.glob("*")), ids=lambda path: path.name)
+def test_seeds_that_once_crashed(seed: Path) -> None:
+    assert fuzz_models.load(seed.read_bytes()) in ("loaded", "refused", "cannot be simulated")
+
+
+def test_hostile_calls() -> None:
+    report = fuzz_api.run(4000, first=0)
+    assert report.troubles == [] and report.calls >= 4000
+    assert report.accepted > 200 and report.refused > 200
