@@ -280,7 +280,9 @@ def another(value: object) -> object:
     if isinstance(value, bool):
         return not value
     if isinstance(value, str):
-        return {"XYZ": "ZYX", "ZYX": "XYZ", "FORCE": "SERVO", "fcl": "bullet", "dart": "fcl", "fast": "dart"}.get(value, value + " 2")
+        return {"XYZ": "ZYX", "ZYX": "XYZ", "FORCE": "SERVO", "fcl": "bullet", "dart": "fcl", "fast": "dart"}.get(
+            value, value + " 2"
+        )
     array = np.asarray(value)
     if array.shape == (4, 4):
         return array @ np.array([[0, -1, 0, 0.1], [1, 0, 0, 0.2], [0, 0, 1, 0.3], [0, 0, 0, 1.0]])
