@@ -31,7 +31,7 @@ class DofArray(np.ndarray[Any, np.dtype[np.float64]]):
 
     @classmethod
     def of(cls, values: Array, names: Names) -> DofArray:
-        """The values, without a copy, with names on the last axis."""
+        """The values, any shape and units, without a copy, with names on the last axis."""
         array = values.view(cls)
         array._names = names
         return array
@@ -290,27 +290,27 @@ class Batch:
     # Parameters, one for each world or one for all
 
     def set_mass(self, body: str | int, masses: ArrayLike) -> None:
-        """Set the mass of a body, kg."""
+        """Set the mass of a body, kg: a number, or shape (N,)."""
         for skel, mass in self._each(masses):
             skel.body(body).set_mass(mass)
 
     def set_friction(self, body: str | int, coefficients: ArrayLike) -> None:
-        """Set the friction coefficient of a body."""
+        """Set the dimensionless friction coefficient of a body: a number, or shape (N,)."""
         for skel, coefficient in self._each(coefficients):
             skel.body(body).set_friction_coeff(coefficient)
 
     def set_restitution(self, body: str | int, coefficients: ArrayLike) -> None:
-        """Set the restitution coefficient of a body, 0 to 1."""
+        """Set the restitution coefficient of a body, 0 to 1: a number, or shape (N,)."""
         for skel, coefficient in self._each(coefficients):
             skel.body(body).set_restitution_coeff(coefficient)
 
     def set_damping(self, dof: str | int, coefficients: ArrayLike) -> None:
-        """Set the damping of a dof, N m s/rad or N s/m."""
+        """Set the damping of a dof, N m s/rad or N s/m: a number, or shape (N,)."""
         for skel, coefficient in self._each(coefficients):
             skel.dof(dof).set_damping_coefficient(coefficient)
 
     def set_stiffness(self, dof: str | int, coefficients: ArrayLike) -> None:
-        """Set the spring stiffness of a dof, N m/rad or N/m."""
+        """Set the spring stiffness of a dof, N m/rad or N/m: a number, or shape (N,)."""
         for skel, coefficient in self._each(coefficients):
             skel.dof(dof).set_spring_stiffness(coefficient)
 

@@ -35,7 +35,6 @@ from hypothesis import strategies as st
 import pydart2
 from oracle.models import dart_data
 from pydart2 import flat_api
-from pydart2.flat_table import TABLE
 
 #: What the documentation promises; anything else is a bug.
 DOCUMENTED = (pydart2.PydartError, ValueError, TypeError, IndexError, KeyError, AttributeError, OverflowError)
@@ -144,8 +143,7 @@ def do(thing: Any, kind: str, name: str, arguments: list[Any]) -> None:
 
 def flat_calls() -> list[tuple[str, Callable[..., Any]]]:
     """The flat functions, but those that end all worlds or make ever more of them."""
-    names = re.findall(r"^(\w+__\w+)\(", TABLE, re.MULTILINE)
-    return [(name, getattr(flat_api, name)) for name in names if "render" not in name]
+    return [(name, call) for name, call in flat_api.MEMBERS.items() if "__" in name and "render" not in name]
 
 
 @dataclass

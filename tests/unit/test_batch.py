@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 import pydart2
-from physics.models import G, box, floor, free_body, make_world, skeleton, slider
+from physics.models import G, box, floor, free_body, make_world, slider
 from pydart2 import Batch
 
 Array = NDArray[np.float64]
@@ -253,7 +253,7 @@ def test_a_second_thread_runs_on_and_is_refused() -> None:
 
 
 def test_worlds_without_dofs(tmp_path: Path) -> None:
-    world = make_world(tmp_path, skeleton(name="empty"))
+    world = make_world(tmp_path, floor())
     batch = Batch(world, 2)
     batch.step(3)
     assert batch.x.shape == batch.q.shape == (2, 0)
