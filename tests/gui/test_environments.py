@@ -17,7 +17,12 @@ XVFB = ["xvfb-run", "-a", "-s", "-screen 0 1680x1050x24"]
 
 def run(*command: str, seconds: float = 120.0, **environment: str) -> subprocess.CompletedProcess[str]:
     inherited = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "QT_QPA_PLATFORM")}
-    inherited |= {"PYTHONPATH": f"{ROOT}:{ROOT / 'tests'}", "XDG_RUNTIME_DIR": "/tmp", **environment}
+    inherited |= {
+        "PYTHONPATH": f"{ROOT}:{ROOT / 'tests'}",
+        "XDG_RUNTIME_DIR": "/tmp",
+        "PYTHONFAULTHANDLER": "1",
+        **environment,
+    }
     return subprocess.run(command, capture_output=True, text=True, env=inherited, cwd=ROOT, timeout=seconds)
 
 
