@@ -17,7 +17,8 @@ GENERATED = {"examples", "api", "generated", "_build"}
 PAGES = [
     path for path in sorted((ROOT / "docs").rglob("*.md")) if path.relative_to(ROOT / "docs").parts[0] not in GENERATED
 ]
-PAGES = [path for path in PAGES if "```python" in path.read_text(encoding="utf-8")]
+PROGRAMS = {"many-worlds.md"}  # its blocks are programs of their own: tests/unit/test_many_worlds.py
+PAGES = [path for path in PAGES if "```python" in path.read_text(encoding="utf-8") and path.name not in PROGRAMS]
 BLOCK = re.compile(r"^```(?P<kind>\w+)\n(?P<code>.*?)^```", re.DOTALL | re.MULTILINE)
 MARK = "----8<----"
 

@@ -1,4 +1,4 @@
-"""The programs of docs/many-worlds.md, run as they stand."""
+"""The programs of docs/howto/many-worlds.md, run as they stand."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import pytest
 
 import pydart2
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "many-worlds.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "howto" / "many-worlds.md"
 PROGRAMS = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
 
 
