@@ -5,7 +5,6 @@
 #include <dart/dynamics/SoftBodyNode.hpp>
 
 #include "checks.hpp"
-#include "clone.hpp"
 #include "contact.hpp"
 #include "detector.hpp"
 #include "errors.hpp"
@@ -13,7 +12,6 @@
 #include "loading.hpp"
 #include "manager.hpp"
 #include "messages.hpp"
-#include "model.hpp"
 #include "state.hpp"
 #include "stepping.hpp"
 #include "world_states.hpp"
@@ -67,11 +65,6 @@ const Frame& kept_frame(const WorldRecord& world, long index)
         "frame " + std::to_string(index) + " is not kept; the recording has frames "
             + std::to_string(world.recording.first_frame()) + " to " + std::to_string(world.recording.num_frames() - 1));
   return *frame;
-}
-
-void write(const std::vector<double>& numbers, Output& out)
-{
-  std::copy(numbers.begin(), numbers.end(), out.vector(static_cast<long>(numbers.size())));
 }
 
 void write_contacts(const std::vector<double>& rows, Output& out)
@@ -332,64 +325,6 @@ void WorldHandle::remove_all_constraints()
   auto& record = world();
   record.world->getConstraintSolver()->removeAllConstraints();
   record.constraints.clear();
-}
-
-void WorldHandle::snapshot(bool exact, Output& out)
-{
-  auto& record = world();
-  if (exact)
-    forget_history(record);
-  Archive archive;
-  visit_state(archive, record);
-  write(archive.numbers, out);
-}
-
-void WorldHandle::restore(const VectorIn& snapshot)
-{
-  auto& record = world();
-  Archive size;
-  visit_state(size, record);
-  check::size(snapshot.size, size.numbers.size(), "the snapshot");
-  if (!snapshot.eigen().allFinite())
-    throw Error(Kind::value, "the snapshot must be finite");
-  Archive archive({}, {snapshot.data, snapshot.data + snapshot.size});
-  visit_state(archive, record);
-  forget_history(record);
-}
-
-std::vector<std::string> WorldHandle::plan() const
-{
-  return blueprint(world()).plan;
-}
-
-std::vector<std::string> WorldHandle::model_texts() const
-{
-  Archive archive;
-  visit_model(archive, world());
-  return archive.texts;
-}
-
-void WorldHandle::model_numbers(Output& out) const
-{
-  Archive archive;
-  visit_model(archive, world());
-  write(archive.numbers, out);
-}
-
-WorldHandle WorldHandle::clone() const
-{
-  Busy busy(*record_);
-  return WorldHandle(build(blueprint(*record_)));
-}
-
-WorldHandle WorldHandle::rebuild(
-    const std::vector<std::string>& plan,
-    const std::vector<std::string>& model_texts,
-    const VectorIn& model_numbers,
-    const VectorIn& snapshot)
-{
-  const auto numbers = [](const VectorIn& in) { return std::vector<double>(in.data, in.data + in.size); };
-  return WorldHandle(build({plan, model_texts, numbers(model_numbers), numbers(snapshot)}));
 }
 
 bool WorldHandle::is_recording() const
