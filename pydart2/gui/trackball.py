@@ -63,12 +63,12 @@ class Trackball:
     @property
     def matrix(self) -> NDArray[np.float32]:
         """Rotation from the world's to the eye's axes, 16 numbers as glMultMatrix takes them (column by column)."""
-        return self._matrix
+        return self._matrix.astype(np.float32)
 
     @property
     def view(self) -> NDArray[np.float64]:
         """From the world's to the eye's coordinates, shape (4, 4)."""
-        view = self._matrix.reshape(4, 4).T.astype(float)
+        view = self._matrix.reshape(4, 4).T.copy()
         view[:3, 3] = self._trans
         return view
 
@@ -146,7 +146,7 @@ class Trackball:
         GL.glPushMatrix()
         GL.glLoadIdentity()
         GL.glTranslatef(0.0, 0.0, -self._distance)
-        GL.glMultMatrixf(self._matrix)
+        GL.glMultMatrixd(self._matrix)
 
     def pop(self) -> None:
         """Give OpenGL the matrices back that `push` saved."""
@@ -172,7 +172,7 @@ class Trackball:
         self._set_rotation(_multiply(about_z, about_x))
 
     def _get_orientation(self) -> tuple[float, float]:
-        rotation = self._matrix.reshape(4, 4).T.astype(float)
+        rotation = self._matrix.reshape(4, 4).T
         theta = np.degrees(np.arctan2(rotation[1, 2], rotation[2, 2]))
         phi = np.degrees(np.arctan2(rotation[0, 1], rotation[0, 0]))
         return float(theta), float(phi)
@@ -184,9 +184,7 @@ class Trackball:
             raise ValueError(f"a trackball's rot is a quaternion [x, y, z, w], not {list(quaternion)}")
         self._rotation = q / norm
         x, y, z, w = self._rotation
-        eye = np.eye(
-            4, dtype=np.float32
-        )  # the eye's axes in the world, column by column: the transpose turns the world
+        eye = np.eye(4)  # the eye's axes in the world, column by column: the transpose turns the world
         eye[:3, :3] = [
             [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (z * x + y * w)],
             [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],

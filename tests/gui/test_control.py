@@ -39,7 +39,7 @@ def test_a_point_of_a_ray_is_projected_back_to_its_pixel(
     x, y, _, w = camera.projection(SIZE[0] / SIZE[1]) @ camera.view @ np.append(point, 1.0)
     assert w == pytest.approx(depth)
     assert mover.depth_of(point) == pytest.approx(depth)
-    assert ((x / w + 1.0) / 2.0 * SIZE[0], (1.0 - y / w) / 2.0 * SIZE[1]) == pytest.approx(pixel, abs=1e-3)
+    assert ((x / w + 1.0) / 2.0 * SIZE[0], (1.0 - y / w) / 2.0 * SIZE[1]) == pytest.approx(pixel, abs=1e-6)
 
 
 def test_turning_leaves_the_pivot_where_it_is() -> None:
