@@ -1,10 +1,19 @@
-"""Starting over, and how much is said."""
+"""Starting over, how much is said, and worlds that nobody has any more."""
 
 from __future__ import annotations
 
+import gc
+import weakref
+from typing import TYPE_CHECKING
+
 from pydart2 import _native
 
+if TYPE_CHECKING:
+    from pydart2.world import World
+
 _verbose = True
+_worlds: weakref.WeakValueDictionary[int, World] = weakref.WeakValueDictionary()
+_many_worlds = 10
 
 
 def init(verbose: bool = True) -> None:
@@ -27,3 +36,16 @@ def set_verbose(verbose: bool = True) -> None:
     """Print messages or not."""
     global _verbose
     _verbose = bool(verbose)
+
+
+def count(world: World) -> None:
+    """Note a new world; look for dropped ones when there are twice as many as after the last look.
+
+    A world and its skeletons refer to each other. Such circles wait for Python's collector, which counts objects and
+    does not know how much memory each holds here.
+    """
+    global _many_worlds
+    _worlds[id(world)] = world
+    if len(_worlds) > _many_worlds and gc.isenabled():
+        gc.collect()
+        _many_worlds = max(10, 2 * len(_worlds))

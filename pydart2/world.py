@@ -10,6 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2 import manager
 from pydart2._native import WorldHandle
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
@@ -127,6 +128,7 @@ class World:
         self._controlled: list[tuple[Skeleton, Controller]] = []
         self.collision_result = CollisionResult(self)
         self.collision_filter = CollisionFilter(self)
+        manager.count(self)
 
     def destroy(self) -> None:
         """Free the world; any later use of it or of what is in it raises DestroyedError."""

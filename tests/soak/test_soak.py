@@ -95,7 +95,7 @@ def test_errors(tmp_path: Path) -> None:
     skel = world.skeletons[0]
 
     def work() -> None:
-        skel.dq = [1e29]
+        skel.dq = [9.999e29]
         skel.tau = [1e30]
         with pytest.raises(pydart2.SimulationError):
             world.step(10)
@@ -105,7 +105,6 @@ def test_errors(tmp_path: Path) -> None:
             world.add_skeleton("missing.urdf")
         world.reset()
 
-    skel.bodynodes[0].set_mass(1e-20)
     grown = growth(work, 200, 20_000)
     print(f"20,000 times three errors: {grown:+.2f} MB")
     assert grown < 1.0
