@@ -3,25 +3,46 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
-from harness import ROUNDS, Ratio, loop_program, met
+from harness import ROUNDS, Ratio, loop_program, met, output
 from scenes import scenes
 
 import pydart2
 
+FOLDER = Path(__file__).resolve().parent
 WORLDS, STEPS, THREADS = 64, 60, 2
 SCENE = scenes()["fullbody1"]
 
 
-def warm_world() -> pydart2.World:
-    """fullbody1 on the ground, with DART's own constraint solver."""
+# Steps per second in a process that has had a second thread, to those before.
+ONE_WORLD = """
+import threading, time
+from batch import SCENE, warm_world
+world = warm_world()
+start = world.x
+def steps_per_second():
+    world.x = start
+    begin = time.perf_counter()
+    world.step(SCENE.steps)
+    return SCENE.steps / (time.perf_counter() - begin)
+alone = [steps_per_second() for _ in range(5)]
+thread = threading.Thread(target=int)
+thread.start()
+thread.join()
+print(sorted(steps_per_second() for _ in range(5))[2] / sorted(alone)[2])
+"""
+
+
+def warm_world(solver: str = "dart") -> pydart2.World:
+    """fullbody1 on the ground."""
     world = pydart2.World(SCENE.dt, SCENE.world)
     world.set_recording(False)
-    if hasattr(world, "set_constraint_solver"):
-        world.set_constraint_solver("dart")
+    world.set_constraint_solver(solver)
     world.step(SCENE.warm)
     return world
 
@@ -60,15 +81,27 @@ def main() -> None:
     model = warm_world()
     start = model.x
     pool = pydart2.Batch(model, WORLDS, threads=THREADS)
+    fast = pydart2.Batch(warm_world("fast"), WORLDS, threads=THREADS)
     worlds = [warm_world() for _ in range(THREADS)]
-    to_processes, to_one = [], []
+    to_processes, fast_to_processes, to_one, threaded = [], [], [], []
     for _ in range(ROUNDS):
-        to_processes.append(batch(pool) / processes())
+        both = processes()
+        to_processes.append(batch(pool) / both)
+        fast_to_processes.append(batch(fast) / both)
+        threaded.append(
+            float(output(sys.executable, "-c", ONE_WORLD, PYTHONPATH=str(FOLDER), OPENBLAS_NUM_THREADS="1"))
+        )
         to_one.append(python_threads(worlds, start) / python_threads(worlds[:1], start))
     ratio, two = Ratio(to_processes), Ratio(to_one)
     print("## Many worlds\n\nfullbody1, steps per second by the clock on the wall.\n")
     bars = met(ratio, 0.95, at_least=True), met(two, 1.6, at_least=True)
     print(f"Batch of {WORLDS} on {THREADS} threads to {THREADS} C++ processes: {ratio}; {bars[0]}.\n")
+    print(
+        "What sets the limit: in a process that has, or has had, a second thread the C++ library counts the references "
+        f"to the engine's objects with locked instructions. One world then does {Ratio(threaded)} of the steps per "
+        "second.\n"
+    )
+    print(f"With the fast constraint solver, to the same C++ processes: {Ratio(fast_to_processes)}.\n")
     print(f"Two Python threads with two worlds to one: {two}; {bars[1]}.")
 
 

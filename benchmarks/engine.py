@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from harness import BUILD, DEBIAN, OURS, PLAYERS, ROOT, Ratio, competitors, met, output, python_player, rounds, table
-from scenes import scenes
+from scenes import scenes, standing_human
 
 PREFIX = ROOT / "build" / "engine" / "prefix"
 OPTIMISED = "optimised engine"
@@ -38,7 +38,7 @@ def main() -> None:
         rows.append([name, ratio, met(ratio, 1.25, at_least=True), "yes" if states[0] == states[1] else "**no**"])
     print("Steps per second, with Debian's engine as 1; whether the states are bitwise equal after 1,000 steps.\n")
     print(table(["scene", OPTIMISED, "bar", "same states"], rows))
-    found = rounds(players, "control", scenes()["fullbody1"])
+    found = rounds(players, "control", standing_human())
     ratio = Ratio([r[DEBIAN]["stable PD"] / r[OPTIMISED]["stable PD"] for r in found])
     bar = met(ratio, 1.9, at_least=True)
     print(f"\nStable PD loop on fullbody1, steps per second to Debian's dartpy: {ratio}; {bar}.")

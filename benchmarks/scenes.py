@@ -38,6 +38,16 @@ def _standing_atlas() -> Scene:
     return Scene("Atlas", world, robot, q=q, stiffness=standing["stiffness"], damping=standing["damping"], steps=100)
 
 
+def standing_human() -> Scene:
+    """As in examples/biped_stand.py, for a controller that holds the pose."""
+    world = pydart2.data_path("skel/fullbody1.skel")
+    q = pydart2.World(0.001, world).skeletons[-1].q
+    q["j_pelvis_pos_y"], q["j_pelvis_rot_y"] = -0.05, -0.2
+    for side in ("left", "right"):
+        q[f"j_thigh_{side}_z", f"j_shin_{side}", f"j_heel_{side}_1"] = 0.15, -0.4, 0.25
+    return Scene("standing fullbody1", world, q=q.tolist(), dt=1.0 / 2000.0, warm=0, steps=600)
+
+
 def scenes() -> dict[str, Scene]:
     """Scenes by name, from models that come with the package."""
     skel = {name: pydart2.data_path(f"skel/{name}.skel") for name in ("cubes", "chain", "fullbody1", "softBodies")}

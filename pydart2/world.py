@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import os
 from collections.abc import Mapping
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,10 +15,12 @@ from pydart2._native import WorldHandle
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError
-from pydart2.loading import Missing, Options, Source, read_model
 from pydart2.recording import Recording
 from pydart2.skeleton import Controller, Skeleton
 from pydart2.state import Snapshot, model_hash
+
+if TYPE_CHECKING:
+    from pydart2.loading import Missing, Source
 
 _DETECTORS = ("dart", "fcl", "bullet", "ode")
 
@@ -105,6 +107,8 @@ class World:
     ) -> None:
         model = skel_path
         if model is not None:
+            from pydart2.loading import Options, read_model  # a third of the time to import pydart2
+
             model = read_model(model, Options(packages, missing_meshes, safe, text=xmlstr))
         if model is not None and model.has_world:
             self._handle = model.load_world()
@@ -170,6 +174,8 @@ class World:
             If the file is missing or cannot be read: says file, line and reason.
         """
         self._handle.time()  # a world that is gone says so before the file is read
+        from pydart2.loading import Options, read_model
+
         model = read_model(filename, Options(packages, missing_meshes, safe))
         skel = (CLASS or self.CLASS_SKELETON)(self, _filename=model)
         self.skeletons.append(skel)
