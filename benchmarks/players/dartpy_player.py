@@ -63,6 +63,8 @@ class Model:
     def contacts(self) -> Any:
         return [(contact.point, contact.force) for contact in self.world.getLastCollisionResult().getContacts()]
 
+    contact_objects = contacts
+
     def states(self) -> Any:
         return [(skel.getPositions(), skel.getVelocities()) for skel in self.skeletons]
 

@@ -61,6 +61,11 @@ class Model:
     def contacts(self) -> Any:
         result = self.world.collision_result
         result.update()  # as after a step
+        return result.rows
+
+    def contact_objects(self) -> Any:
+        result = self.world.collision_result
+        result.update()
         return [(contact.point, contact.force) for contact in result.contacts]
 
     def set_q(self, q: Any) -> None:

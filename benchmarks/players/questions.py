@@ -1,7 +1,8 @@
 """The questions, asked of any binding: `play(binding)` answers the one on the command line as JSON.
 
 A binding has ``load(scene)``, which returns an object with the calls that are measured: world-wide ``step``,
-``states``, ``set_states``, ``contacts``; of the last skeleton ``q dq M c J T C``, ``set_q``, ``set_tau``, ``num_dofs``.
+``states``, ``set_states``, ``contacts`` (points and forces, as numbers or in ``contact_objects``); of the last skeleton
+``q dq M c J T C``, ``set_q``, ``set_tau``, ``num_dofs``.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ def step(model: Any, scene: dict[str, Any]) -> dict[str, float]:
     return figures
 
 
-READS = ("q", "dq", "M", "c", "J", "T", "C", "contacts")
+READS = ("q", "dq", "M", "c", "J", "T", "C", "contacts", "contact_objects")
 
 
 def access(model: Any, scene: dict[str, Any]) -> dict[str, float]:
@@ -50,7 +51,7 @@ def access(model: Any, scene: dict[str, Any]) -> dict[str, float]:
 
     figures["q ="] = both(lambda: None)
     figures["tau ="] = per_call(lambda: model.set_tau(tau))
-    for name in READS[2:-1]:
+    for name in READS[2:-2]:
         figures[f"{name} after q ="] = both(getattr(model, name)) - figures["q ="]
     return figures
 

@@ -188,7 +188,17 @@ void SkeletonHandle::commands(Output& like) const
 
 void SkeletonHandle::set_positions(const VectorIn& positions)
 {
-  skeleton().setPositions(per_dof(positions, "positions"));
+  const auto& values = per_dof(positions, "positions");
+  // By Skeleton::setPositions() every dof would be a change of its own.
+  for (std::size_t i = 0; i < dofs_.size();) {
+    auto& joint = *dofs_[i]->getJoint();
+    const auto size = joint.getNumDofs();
+    if (size == 1)
+      joint.setPosition(0, values[static_cast<long>(i)]);
+    else
+      joint.setPositions(values.segment(static_cast<long>(i), static_cast<long>(size)));
+    i += size;
+  }
 }
 
 void SkeletonHandle::set_velocities(const VectorIn& velocities)
