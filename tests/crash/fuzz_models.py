@@ -8,6 +8,7 @@ File n is the same in each run. One that ends the process is put into ``tests/cr
 from __future__ import annotations
 
 import collections
+import copy
 import logging
 import os
 import random
@@ -59,7 +60,7 @@ def _delete(root: ET.Element, rng: random.Random) -> None:
 
 def _double(root: ET.Element, rng: random.Random) -> None:
     parent, child = rng.choice(_elements(root))
-    parent.insert(rng.randrange(len(parent) + 1), child)
+    parent.insert(rng.randrange(len(parent) + 1), copy.deepcopy(child))  # the same one could end up inside itself
 
 
 def _move(root: ET.Element, rng: random.Random) -> None:
