@@ -1,6 +1,6 @@
 #!/bin/sh
 # A second build of the extension, beside the installed one, and a command that runs with it:
-#   tools/instrumented.sh sanitize|coverage COMMAND...
+#   tools/instrumented.sh sanitize|coverage COMMAND...    not "python -m", which would take the package in this folder
 # The copy of the package is build/KIND/pydart2; the engine's own libraries stay as Debian built them.
 set -eu
 cd "$(dirname "$0")/.."
@@ -11,12 +11,12 @@ python=$PWD/${VENV:-.venv}/bin/python
 
 mkdir -p "$folder/pydart2"
 cp -ru pydart2/. "$folder/pydart2/"
-ln -sfn "$PWD/data" "$folder/data"
+cp -ru data examples "$folder/"
 cmake -S . -B "$folder/cmake" -DPYDART2_INSTRUMENT="$kind" -DPYDART2_OUTPUT_DIR="$folder/pydart2" \
   -DPython3_EXECUTABLE="$python" >"$folder/cmake.log"
 cmake --build "$folder/cmake" --parallel "$(nproc)" >>"$folder/cmake.log"
 
-export PYTHONPATH="$folder" PYTHONSAFEPATH=1 # not the package in the current folder
+export PYTHONPATH="$folder"
 if [ "$kind" = sanitize ]; then
   # Python is not instrumented, so the sanitizers come first..
   export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so.6)"
