@@ -32,7 +32,7 @@ def data_path(name: str) -> str:
     Raises LoadError if there is no such file.
     """
     path = data_folder() / name
-    if not path.is_file():
+    if not os.path.isfile(path):  # Path.is_file() raises for a name that is too long
         raise LoadError(f"no file {name!r} among the models of pydart2 ({data_folder()}); see pydart2.data_files()")
     return str(path)
 
@@ -53,7 +53,7 @@ def find_model(path: str | os.PathLike[str]) -> str:
     if os.path.exists(name):
         return os.path.realpath(name)
     fallback = data_folder() / Path(*_without_data(Path(name).parts))
-    if os.path.isabs(name) or not fallback.is_file():
+    if os.path.isabs(name) or not os.path.isfile(fallback):
         raise LoadError(f"no file {name!r}, neither in {os.getcwd()} nor among the models of pydart2")
     _log.info("no file %r in the current folder; using %s", name, fallback)
     return str(fallback)

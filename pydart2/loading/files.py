@@ -76,12 +76,12 @@ def package_folders(name: str, folder: str, packages: Mapping[str, str]) -> Iter
         return
     for entry in filter(None, os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)):
         for candidate in (Path(entry), Path(entry) / name, *sorted(Path(entry).glob(f"*/{_escaped(name)}"))):
-            if candidate.name == name and candidate.is_dir():
+            if candidate.name == name and os.path.isdir(candidate):
                 yield str(candidate)
     for above in (Path(folder), *Path(folder).parents):
         if above.name == name:
             yield str(above)
-        elif name and (above / name).is_dir():
+        elif name and os.path.isdir(above / name):
             yield str(above / name)
 
 

@@ -73,7 +73,7 @@ def test_links_are_resolved(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["nothing.skel", "./data/skel/cube.skel", "/nowhere/cubes.skel", "/data/skel/cubes.skel"]
+    "name", ["nothing.skel", "./data/skel/cube.skel", "/nowhere/cubes.skel", "/data/skel/cubes.skel", "é" * 200]
 )
 def test_missing_model(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
