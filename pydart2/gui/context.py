@@ -88,6 +88,8 @@ def load_opengl() -> None:
             f"PyOpenGL cannot be loaded ({error}); pip install PyOpenGL, apt-get install libgl1"
         ) from None
     loaded = platform.PLATFORM
+    if getattr(loaded, "GL", None) is None:
+        raise ContextError("PyOpenGL finds no libGL; apt-get install libgl1")
     if loaded.GetCurrentContext is not current_context:
         # PyOpenGL asks the one window system that it was loaded with; the context may have come from the other.
         for owner in (loaded, platform):
