@@ -18,6 +18,11 @@ cmake --build "$folder/cmake" --parallel "$(nproc)" >>"$folder/cmake.log"
 
 export PYTHONPATH="$folder"
 if [ "$kind" = sanitize ]; then
+  # The helper that tries models limits its memory, and AddressSanitizer wants terabytes of addresses.
+  helper=$folder/pydart2/_try_load
+  mv "$helper" "$helper"_plain
+  printf '#!/bin/sh\nunset LD_PRELOAD\nexec "$0"_plain "$@"\n' >"$helper"
+  chmod +x "$helper"
   # Python is not instrumented, so the sanitizers come first..
   export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so.6)"
   export ASAN_OPTIONS="detect_leaks=0:detect_container_overflow=0:abort_on_error=1:${ASAN_OPTIONS:-}"
