@@ -14,12 +14,13 @@ cp -ru pydart2/. "$folder/pydart2/"
 cp -ru data examples "$folder/"
 cmake -S . -B "$folder/cmake" -DPYDART2_INSTRUMENT="$kind" -DPYDART2_OUTPUT_DIR="$folder/pydart2" \
   -DPython3_EXECUTABLE="$python" >"$folder/cmake.log"
+helper=$folder/pydart2/_try_load
+rm -f "$helper" # made anew: below it may become another
 cmake --build "$folder/cmake" --parallel "$(nproc)" >>"$folder/cmake.log"
 
 export PYTHONPATH="$folder"
 if [ "$kind" = sanitize ]; then
   # The helper that tries models limits its memory, and AddressSanitizer wants terabytes of addresses.
-  helper=$folder/pydart2/_try_load
   mv "$helper" "$helper"_plain
   printf '#!/bin/sh\nunset LD_PRELOAD\nexec "$0"_plain "$@"\n' >"$helper"
   chmod +x "$helper"
