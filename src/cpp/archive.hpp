@@ -52,7 +52,7 @@ public:
       refuse();
     const double* values = numbers.data() + number_;
     number_ += size;
-    if (std::memcmp(now.data(), values, size * sizeof(double)) != 0)
+    if (size > 0 && std::memcmp(now.data(), values, size * sizeof(double)) != 0)
       set(Eigen::Map<const Eigen::VectorXd>(values, now.size()));
   }
 
