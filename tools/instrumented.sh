@@ -1,6 +1,6 @@
 #!/bin/sh
 # A second build of the extension, beside the installed one, and a command that runs with it:
-#   tools/instrumented.sh sanitize|coverage COMMAND...    not "python -m", which would take the package in this folder
+#   tools/instrumented.sh sanitize|coverage COMMAND...
 # The copy of the package is build/KIND/pydart2; the engine's own libraries stay as Debian built them.
 set -eu
 cd "$(dirname "$0")/.."
@@ -18,7 +18,7 @@ helper=$folder/pydart2/_try_load
 rm -f "$helper" # made anew: below it may become another
 cmake --build "$folder/cmake" --parallel "$(nproc)" >>"$folder/cmake.log"
 
-export PYTHONPATH="$folder"
+export PYTHONPATH="$folder" PYTHONSAFEPATH=1 # the package of that folder, not of the one that a program is started in
 if [ "$kind" = sanitize ]; then
   # The helper that tries models limits its memory, and AddressSanitizer wants terabytes of addresses.
   mv "$helper" "$helper"_plain

@@ -13,7 +13,18 @@ struct DofState
 
   std::size_t size() const { return positions.size(); }
 
+  /// Whether Skeleton::resetCommands() would change nothing.
+  bool commands_at_rest() const;
+
   std::vector<const double*> positions, velocities, accelerations;
+
+private:
+  struct JointCommands
+  {
+    const dart::dynamics::Joint* joint;
+    bool (*at_rest)(const dart::dynamics::Joint&);
+  };
+  std::vector<JointCommands> joints_;
 };
 
 } // namespace pydart2

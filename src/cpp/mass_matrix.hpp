@@ -1,7 +1,8 @@
 #pragma once
 
-#include <dart/dynamics/Skeleton.hpp>
 #include <vector>
+
+#include "link_tree.hpp"
 
 namespace pydart2 {
 
@@ -23,38 +24,14 @@ namespace pydart2 {
 class MassMatrix
 {
 public:
-  explicit MassMatrix(dart::dynamics::Skeleton& skeleton);
-
   /// The engine's matrix, up to date. That of a skeleton with soft bodies is computed by DART.
-  const Eigen::MatrixXd& update();
+  const Eigen::MatrixXd& update(const LinkTree& tree);
 
 private:
-  using JointColumns = const double* (*)(const dart::dynamics::Joint&);
+  void compose_inertias(const std::vector<Link>& links);
+  void fill(const std::vector<Link>& links, std::size_t index, Eigen::MatrixXd& M) const;
 
-  struct Link
-  {
-    const dart::dynamics::BodyNode* body;
-    const dart::dynamics::Joint* joint;
-    JointColumns columns; ///< Where the engine keeps S, 6 numbers per dof.
-    int parent, first_dof, num_dofs;
-  };
-
-  /// Mass, first moment and rotational inertia in the link's frame.
-  struct Inertia
-  {
-    double m;
-    Eigen::Vector3d h;
-    Eigen::Matrix3d I;
-  };
-
-  void add(dart::dynamics::BodyNode& body, int parent);
-  void read_own_inertias();
-  void compose_inertias();
-  void fill(std::size_t link, Eigen::MatrixXd& M) const;
-
-  dart::dynamics::Skeleton& skeleton_;
-  std::vector<Link> links_; // parents come first
-  std::vector<Inertia> inertias_;
+  std::vector<SpatialInertia> inertias_;
 };
 
 } // namespace pydart2

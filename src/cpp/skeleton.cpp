@@ -22,7 +22,7 @@ SkeletonHandle::SkeletonHandle(WorldRef world, SkeletonRef skeleton)
   : skeleton_(world, skeleton, skeleton->skeleton.get()),
     dofs_(skeleton->skeleton->getDofs()),
     state_(*skeleton->skeleton),
-    mass_matrix_(*skeleton->skeleton),
+    tree_(*skeleton->skeleton),
     scratch_(static_cast<long>(dofs_.size()))
 {
 }
@@ -282,7 +282,7 @@ void SkeletonHandle::force_upper_limits(Output& out) const
 void SkeletonHandle::mass_matrix(Output& into)
 {
   skeleton_.get();
-  const Eigen::MatrixXd& M = mass_matrix_.update();
+  const Eigen::MatrixXd& M = mass_matrix_.update(tree_);
   // M is symmetric, so its columns are its rows.
   std::copy(M.data(), M.data() + M.size(), into.matrix(M.rows(), M.cols()));
 }
@@ -293,9 +293,10 @@ void SkeletonHandle::inv_mass_matrix(Output& into) const
   matrix(into, inverse.rows(), inverse.cols()) = inverse;
 }
 
-void SkeletonHandle::coriolis_and_gravity_forces(Output& into) const
+void SkeletonHandle::coriolis_and_gravity_forces(Output& into)
 {
-  copy(skeleton().getCoriolisAndGravityForces(), into);
+  skeleton_.get();
+  copy(bias_forces_.update(tree_), into);
 }
 
 void SkeletonHandle::coriolis_forces(Output& out) const

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bias_forces.hpp"
 #include "arrays.hpp"
 #include "bodynode.hpp"
 #include "dof.hpp"
@@ -70,7 +71,7 @@ public:
 
   void mass_matrix(Output& into);
   void inv_mass_matrix(Output& into) const;
-  void coriolis_and_gravity_forces(Output& into) const;
+  void coriolis_and_gravity_forces(Output& into);
   void coriolis_forces(Output& out) const;
   void gravity_forces(Output& out) const;
   void external_forces(Output& out) const;
@@ -111,7 +112,9 @@ private:
   Part<dart::dynamics::Skeleton, dart::dynamics::Skeleton*> skeleton_; // SkeletonRecord owns it
   std::vector<dart::dynamics::DegreeOfFreedom*> dofs_;
   DofState state_;
+  LinkTree tree_;
   MassMatrix mass_matrix_;
+  BiasForces bias_forces_;
   Eigen::VectorXd scratch_;
 };
 

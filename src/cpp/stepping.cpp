@@ -4,6 +4,7 @@
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/PointMass.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
+#include <cstring>
 #include <sstream>
 
 #include "checks.hpp"
@@ -215,6 +216,18 @@ void phases(WorldRecord& record)
   }
 }
 
+/// As Skeleton::clearExternalForces(), which locks a pointer and marks its caches for every body, only for those that
+/// have a force.
+void clear_external_forces(Skeleton& skeleton)
+{
+  static const Eigen::Vector6d none = Eigen::Vector6d::Zero();
+  if (skeleton.getNumSoftBodyNodes() > 0)
+    return skeleton.clearExternalForces();
+  for (auto* body : skeleton.getBodyNodes())
+    if (const auto& force = body->getExternalForceLocal(); std::memcmp(force.data(), none.data(), sizeof none) != 0)
+      body->clearExternalForces();
+}
+
 void go_back(WorldRecord& record)
 {
   for (const auto& item : record.skeletons)
@@ -244,8 +257,9 @@ void advance(WorldRecord& record)
   for (const auto& item : record.skeletons)
     if (item->skeleton->isMobile()) {
       item->skeleton->clearInternalForces();
-      item->skeleton->clearExternalForces();
-      item->skeleton->resetCommands();
+      clear_external_forces(*item->skeleton);
+      if (!item->dofs().commands_at_rest())
+        item->skeleton->resetCommands();
     }
   world.setTime(world.getTime() + world.getTimeStep());
   ++record.frame;
