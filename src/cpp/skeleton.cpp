@@ -8,6 +8,7 @@
 namespace pydart2 {
 
 using dart::dynamics::DegreeOfFreedom;
+using dart::dynamics::Joint;
 
 namespace {
 
@@ -186,19 +187,23 @@ void SkeletonHandle::commands(Output& like) const
   each_dof(like, [](const DegreeOfFreedom& dof) { return dof.getCommand(); });
 }
 
-void SkeletonHandle::set_positions(const VectorIn& positions)
+void SkeletonHandle::by_joint(
+    const Eigen::VectorXd& values, void (Joint::*set_one)(std::size_t, double), void (Joint::*set_all)(const Eigen::VectorXd&))
 {
-  const auto& values = per_dof(positions, "positions");
-  // By Skeleton::setPositions() every dof would be a change of its own.
   for (std::size_t i = 0; i < dofs_.size();) {
     auto& joint = *dofs_[i]->getJoint();
     const auto size = joint.getNumDofs();
     if (size == 1)
-      joint.setPosition(0, values[static_cast<long>(i)]);
+      (joint.*set_one)(0, values[static_cast<long>(i)]);
     else
-      joint.setPositions(values.segment(static_cast<long>(i), static_cast<long>(size)));
+      (joint.*set_all)(values.segment(static_cast<long>(i), static_cast<long>(size)));
     i += size;
   }
+}
+
+void SkeletonHandle::set_positions(const VectorIn& positions)
+{
+  by_joint(per_dof(positions, "positions"), &Joint::setPosition, &Joint::setPositions);
 }
 
 void SkeletonHandle::set_velocities(const VectorIn& velocities)
@@ -213,7 +218,7 @@ void SkeletonHandle::set_accelerations(const VectorIn& accelerations)
 
 void SkeletonHandle::set_forces(const VectorIn& forces)
 {
-  skeleton().setForces(per_dof(forces, "forces"));
+  by_joint(per_dof(forces, "forces"), &Joint::setForce, &Joint::setForces);
 }
 
 void SkeletonHandle::set_commands(const VectorIn& commands)
@@ -329,7 +334,11 @@ dart::dynamics::Skeleton& SkeletonHandle::with_mass() const
 
 void SkeletonHandle::com(Output& into) const
 {
-  vector(into, 3) = with_mass().getCOM();
+  const auto& skel = with_mass();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(); // as Skeleton::getCOM(), which copies the transform of each body twice
+  for (const auto* body : skel.getBodyNodes())
+    sum += body->getMass() * (body->getWorldTransform() * body->getLocalCOM());
+  vector(into, 3) = sum / skel.getMass();
 }
 
 Eigen::Vector3d SkeletonHandle::com_velocity() const
