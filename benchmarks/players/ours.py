@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
@@ -16,8 +17,7 @@ class Model:
     def __init__(self, scene: dict[str, Any]) -> None:
         self.world = world = pydart2.World(scene["dt"], scene["world"])
         world.set_gravity([0.0, scene["gravity"], 0.0])
-        if hasattr(world, "set_constraint_solver"):
-            world.set_constraint_solver("dart")
+        world.set_constraint_solver(os.environ.get("PYDART2_SOLVER", "dart"))
         world.set_recording(False)
         if scene["robot"]:
             world.add_skeleton(scene["robot"])

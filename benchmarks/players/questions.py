@@ -17,7 +17,7 @@ from clock import once, per_call
 
 
 def step(model: Any, scene: dict[str, Any]) -> dict[str, float]:
-    """Seconds of a step, and a number to compare states by."""
+    """Seconds of a step, and how many contacts there are after the last."""
     start, figures = model.states(), {}
     loop = range(scene["steps"])
 
@@ -28,6 +28,7 @@ def step(model: Any, scene: dict[str, Any]) -> dict[str, float]:
     for name, prepare in model.variants.items():
         prepare()
         figures[name] = once(steps, before=lambda: model.set_states(start)) / len(loop)
+    figures["contacts"] = len(model.contacts())
     return figures
 
 
