@@ -60,7 +60,7 @@ coverage: setup
 	mkdir -p build/coverage/html
 	$(VENV)/bin/gcovr --root . --filter 'src/cpp/' --exclude-throw-branches --txt --html-details build/coverage/html/ \
 	  --fail-under-line 90 build/coverage/cmake
-	$(VENV)/bin/coverage report --fail-under=95 --format=total
+	$(VENV)/bin/coverage report --data-file=build/coverage/.coverage --fail-under=95 --format=total
 
 # The models in PyPI's pybullet (100 MB), unpacked without installing it.
 test-third-party: setup
@@ -73,7 +73,6 @@ fuzz: setup
 
 bench: setup
 	$(VENV)/bin/python benchmarks/run_all.py
-	$(VENV)/bin/python benchmarks/solver.py
 	$(VENV)/bin/pip install --quiet mujoco
 	$(VENV)/bin/python benchmarks/rendering.py
 

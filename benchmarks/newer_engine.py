@@ -7,9 +7,9 @@ import sys
 
 from engine import OPTIMISED, PREFIX, package
 from harness import OURS, PYPI, Ratio, competitors, met, python_player, rounds, table
-from scenes import scenes
+from scenes import atlas_with_meshes, scenes
 
-BARS = {"cubes": 1.0, "chain": 1.0, "fullbody1": 1.0, "Atlas": 3.0}
+BARS = {"cubes": 1.0, "chain": 1.0, "fullbody1": 1.0, "Atlas": 3.0, "Atlas with meshes": 3.0}
 
 
 def main() -> None:
@@ -25,13 +25,15 @@ def main() -> None:
     else:
         print("The optimised engine is not built (`make engine`).\n")
     rows: list[list[object]] = []
-    for name, bar in BARS.items():
-        found = rounds(players, "step", scenes()[name])
+    for scene in [*scenes().values(), *atlas_with_meshes()]:
+        if (bar := BARS.get(scene.name)) is None:
+            continue
+        found = rounds(players, "step", scene)
 
         def figures(player: str, figure: str, found: list = found) -> list[float]:
             return [r[player][figure] for r in found]
 
-        row: list[object] = [name]
+        row: list[object] = [scene.name]
         for player in list(players)[1:]:
             steps = zip(figures(PYPI, "step"), figures(player, "recording off"), strict=True)
             ratio = Ratio([theirs / ours for theirs, ours in steps])

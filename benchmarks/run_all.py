@@ -12,12 +12,12 @@ from harness import ROUNDS, output
 import pydart2
 
 FOLDER = Path(__file__).resolve().parent
-QUESTIONS = ("step", "access", "control", "engine", "batch", "loading")
+QUESTIONS = ("step", "access", "control", "engine", "solver", "newer_engine", "batch", "loading")
 HEAD = """# Measured
 
 `make bench` writes this file. Every competitor runs in the same session, in turn, {rounds} rounds; times are CPU time,
-and what counts are the ratios. DART's own constraint solver everywhere; sleeping off in PyPI's dartpy, whose engine is
-another one (its states differ).
+and what counts are the ratios. DART's own constraint solver unless said otherwise; sleeping off in PyPI's dartpy, whose
+engine is another one (its states differ).
 
 {machine}, {cpus} processors, Python {python}, pydart2 {version}.
 """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 import pydart2
@@ -36,6 +36,12 @@ def _standing_atlas() -> Scene:
     skel.set_positions(standing["q"])
     q = skel.q.tolist()
     return Scene("Atlas", world, robot, q=q, stiffness=standing["stiffness"], damping=standing["damping"], steps=100)
+
+
+def atlas_with_meshes() -> list[Scene]:
+    """Atlas with the meshes of Debian's dart-doc, which touch the ground in 65 points; none without them."""
+    robot = Path("/usr/share/doc/dart/data/sdf/atlas/atlas_v3_no_head.sdf")
+    return [replace(_standing_atlas(), name="Atlas with meshes", robot=str(robot), steps=100)] if robot.exists() else []
 
 
 def standing_human() -> Scene:

@@ -414,6 +414,18 @@ class World:
         """Whether contacts of a pair of faces are reduced to four."""
         return self._handle.contact_reduction()
 
+    def set_warm_start(self, enable: bool = True) -> None:
+        """Let the "fast" solver begin the search for the contact forces from those of the step before.
+
+        Off by default. Faster where many contacts last, but the forces are the engine's to rounding only, not to the bit:
+        what rests stays where it is, what tumbles takes another path after a while. restore() forgets the step before.
+        """
+        self._handle.set_warm_start(enable)
+
+    def warm_start(self) -> bool:
+        """Whether the search for the contact forces begins from those of the step before."""
+        return self._handle.warm_start()
+
     # Recording
 
     def is_recording(self) -> bool:

@@ -1,7 +1,8 @@
 #!/bin/sh
 # A second build of the extension, beside the installed one, and a command that runs with it:
 #   tools/instrumented.sh sanitize|coverage COMMAND...
-# The copy of the package is build/KIND/pydart2; the engine's own libraries stay as Debian built them.
+# It runs in build/KIND, a copy of the sources with that build in place, so that whatever the command starts finds it.
+# The engine's own libraries stay as Debian built them.
 set -eu
 cd "$(dirname "$0")/.."
 kind=$1
@@ -10,15 +11,16 @@ folder=$PWD/build/$kind
 python=$PWD/${VENV:-.venv}/bin/python
 
 mkdir -p "$folder/pydart2"
-cp -ru pydart2/. "$folder/pydart2/"
-cp -ru data examples "$folder/"
+git ls-files -z --cached --others --exclude-standard | xargs -0 cp -u --parents -t "$folder"
+ln -sfn "$PWD/${VENV:-.venv}" "$folder/.venv"
 cmake -S . -B "$folder/cmake" -DPYDART2_INSTRUMENT="$kind" -DPYDART2_OUTPUT_DIR="$folder/pydart2" \
   -DPython3_EXECUTABLE="$python" >"$folder/cmake.log"
 helper=$folder/pydart2/_try_load
 rm -f "$helper" # made anew: below it may become another
 cmake --build "$folder/cmake" --parallel "$(nproc)" >>"$folder/cmake.log"
 
-export PYTHONPATH="$folder" PYTHONSAFEPATH=1 # the package of that folder, not of the one that a program is started in
+cd "$folder"
+export PYTHONPATH="$folder"
 if [ "$kind" = sanitize ]; then
   # The helper that tries models limits its memory, and AddressSanitizer wants terabytes of addresses.
   mv "$helper" "$helper"_plain

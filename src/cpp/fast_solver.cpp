@@ -66,6 +66,23 @@ bool contact_reduction(const dart::simulation::World& world)
   return dynamic_cast<const FastConstraintSolver&>(*world.getConstraintSolver()).contact_reduction();
 }
 
+void set_warm_start(dart::simulation::World& world, bool enable)
+{
+  auto& solver = dynamic_cast<FastConstraintSolver&>(*world.getConstraintSolver());
+  solver.set_warm_start(enable);
+  solver.forget_warm_start();
+}
+
+bool warm_start(const dart::simulation::World& world)
+{
+  return dynamic_cast<const FastConstraintSolver&>(*world.getConstraintSolver()).warm_start();
+}
+
+void forget_warm_start(dart::simulation::World& world)
+{
+  dynamic_cast<FastConstraintSolver&>(*world.getConstraintSolver()).forget_warm_start();
+}
+
 void FastConstraintSolver::setFromOtherConstraintSolver(const ConstraintSolver& from)
 {
   auto& other = const_cast<ConstraintSolver&>(from); // its collision group is shared, not changed
@@ -161,6 +178,13 @@ void FastConstraintSolver::read_terms(ConstrainedGroup& group)
 
 void FastConstraintSolver::solve_lcp(ConstrainedGroup& group)
 {
+  if (warm_start_) {
+    const auto index = static_cast<std::size_t>(&group - mConstrainedGroups.data());
+    if (warm_lcp_.solve(index, {mA, mB, mLo, mHi, mFIndex}, warm_x_)) {
+      mX = warm_x_;
+      return;
+    }
+  }
   const bool has_second = mSecondaryBoxedLcpSolver != nullptr;
   if (has_second) { // the first solver overwrites its input
     mXBackup = mX;

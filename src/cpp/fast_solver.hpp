@@ -5,6 +5,7 @@
 #include <string>
 
 #include "constraint_matrix.hpp"
+#include "warm_lcp.hpp"
 
 namespace pydart2 {
 
@@ -27,6 +28,11 @@ Solver installed_solver(const dart::simulation::World& world);
 void set_contact_reduction(dart::simulation::World& world, bool enable);
 bool contact_reduction(const dart::simulation::World& world);
 
+/// Lets the fast solver begin each step's LCP from the one before (warm_lcp.hpp).
+void set_warm_start(dart::simulation::World& world, bool enable);
+bool warm_start(const dart::simulation::World& world);
+void forget_warm_start(dart::simulation::World& world);
+
 /// DART's constraint solver with a faster way to the constraint matrix (ConstraintMatrix). All else is DART's own:
 /// collision detection, the making and grouping of constraints, the right-hand sides and bounds, the LCP solvers.
 class FastConstraintSolver final : public dart::constraint::BoxedLcpConstraintSolver
@@ -37,6 +43,9 @@ public:
   Solver solver() const { return solver_; }
   void set_contact_reduction(bool enable) { contact_reduction_ = enable; }
   bool contact_reduction() const { return contact_reduction_; }
+  void set_warm_start(bool enable) { warm_start_ = enable; }
+  bool warm_start() const { return warm_start_; }
+  void forget_warm_start() { warm_lcp_.forget(); }
 
   /// Takes over what `other` has, its collision group included: a new one would change the order of the contacts.
   void setFromOtherConstraintSolver(const dart::constraint::ConstraintSolver& other) override;
@@ -52,8 +61,11 @@ private:
 
   Solver solver_ = Solver::fast;
   bool contact_reduction_ = false;
+  bool warm_start_ = false;
   bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
   ConstraintMatrix matrix_;
+  WarmLcp warm_lcp_;
+  Eigen::VectorXd warm_x_;
 };
 
 } // namespace pydart2

@@ -138,6 +138,7 @@ void visit_model(Archive& archive, WorldRecord& record)
       [&](const auto& name) { install_solver(world, solver_named(name)); });
   archive.number(
       [&] { return double(contact_reduction(world)); }, [&](double on) { set_contact_reduction(world, on != 0.0); });
+  archive.number([&] { return double(warm_start(world)); }, [&](double on) { set_warm_start(world, on != 0.0); });
   visit_ignored_pairs(archive, record);
   visit_constraints(archive, record);
 }

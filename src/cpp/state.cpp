@@ -7,6 +7,7 @@
 
 #include "constraint_record.hpp"
 #include "detector.hpp"
+#include "fast_solver.hpp"
 
 namespace pydart2 {
 
@@ -87,6 +88,7 @@ void forget_history(WorldRecord& record)
   auto& solver = *record.world->getConstraintSolver();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
   renew_detector(solver);
+  forget_warm_start(*record.world);
   for (auto& constraint : record.constraints)
     renew(constraint, solver);
 }

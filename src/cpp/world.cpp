@@ -268,6 +268,16 @@ void WorldHandle::set_contact_reduction(bool enable)
   pydart2::set_contact_reduction(*world().world, enable);
 }
 
+bool WorldHandle::warm_start() const
+{
+  return pydart2::warm_start(*world().world);
+}
+
+void WorldHandle::set_warm_start(bool enable)
+{
+  pydart2::set_warm_start(*world().world, enable);
+}
+
 void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)
 {
   auto& record = world();

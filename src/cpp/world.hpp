@@ -67,6 +67,8 @@ public:
   /// At most four contacts of each pair of faces.
   bool contact_reduction() const;
   void set_contact_reduction(bool enable);
+  bool warm_start() const;
+  void set_warm_start(bool enable);
 
   /// Two bodies that do not collide with each other, or do again.
   void ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore);

@@ -1,0 +1,116 @@
+#include "warm_lcp.hpp"
+
+#include <Eigen/Cholesky>
+#include <numeric>
+
+namespace pydart2 {
+
+namespace {
+
+constexpr int most_guesses = 12;
+constexpr double rounding = 1e-10; // of the largest number
+
+} // namespace
+
+bool WarmLcp::solve(std::size_t group, const BoxedLcp& lcp, Eigen::VectorXd& x)
+{
+  const auto size = static_cast<std::size_t>(lcp.b.size());
+  if (memories_.size() <= group)
+    memories_.resize(group + 1);
+  Memory& memory = memories_[group];
+  if (memory.all.size() != size)
+    memory = {std::vector<Place>(size, Place::between), std::vector<Place>(size, Place::between)};
+
+  std::vector<int> all(size), normal;
+  std::iota(all.begin(), all.end(), 0);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(normal), [&](int i) { return lcp.findex[i] < 0; });
+
+  x.setZero(lcp.b.size());
+  if (!pivot(lcp, lcp.lo, lcp.hi, normal, memory.normal, x))
+    return false;
+  if (normal.size() == size)
+    return true;
+  lo_ = lcp.lo;
+  hi_ = lcp.hi;
+  for (const int i : all)
+    if (lcp.findex[i] >= 0) {
+      hi_[i] = std::abs(lcp.hi[i] * x[lcp.findex[i]]);
+      lo_[i] = -hi_[i];
+    }
+  return pivot(lcp, lo_, hi_, all, memory.all, x);
+}
+
+bool WarmLcp::pivot(
+    const BoxedLcp& lcp, const Eigen::VectorXd& lo, const Eigen::VectorXd& hi, const std::vector<int>& rows,
+    std::vector<Place>& places, Eigen::VectorXd& x)
+{
+  const double force_error = rounding * lcp.b.cwiseAbs().maxCoeff();
+  for (int guess = 0; guess < most_guesses; ++guess) {
+    for (const int i : rows) {
+      auto& place = places[static_cast<std::size_t>(i)];
+      if ((place == Place::low || lo[i] == hi[i]) && std::isfinite(lo[i]))
+        x[i] = lo[i], place = Place::low;
+      else if (place == Place::high && std::isfinite(hi[i]))
+        x[i] = hi[i];
+      else
+        place = Place::between;
+    }
+    if (!solve_between(lcp, rows, places, x))
+      return false;
+    const double impulse_error = rounding * x.cwiseAbs().maxCoeff();
+    bool right = true;
+    for (const int i : rows) {
+      auto& place = places[static_cast<std::size_t>(i)];
+      Place found = place;
+      if (place == Place::between) {
+        if (x[i] < lo[i] - impulse_error)
+          found = Place::low;
+        else if (x[i] > hi[i] + impulse_error)
+          found = Place::high;
+      } else if (lo[i] != hi[i]) {
+        const double w = lcp.A.row(i).head(x.size()).dot(x) - lcp.b[i];
+        if (place == Place::low ? w < -force_error : w > force_error)
+          found = Place::between;
+      }
+      right &= found == place;
+      place = found;
+    }
+    if (right) {
+      for (const int i : rows)
+        x[i] = std::min(std::max(x[i], lo[i]), hi[i]);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The rows between their bounds from those at them; false if A is not positive definite there.
+bool WarmLcp::solve_between(
+    const BoxedLcp& lcp, const std::vector<int>& rows, const std::vector<Place>& places, Eigen::VectorXd& x)
+{
+  between_.clear();
+  for (const int i : rows)
+    if (places[static_cast<std::size_t>(i)] == Place::between) {
+      between_.push_back(i);
+      x[i] = 0.0;
+    }
+  const auto count = static_cast<Eigen::Index>(between_.size());
+  factor_.resize(count, count);
+  right_.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int i = between_[static_cast<std::size_t>(k)];
+    const auto row = lcp.A.row(i);
+    for (Eigen::Index l = 0; l <= k; ++l)
+      factor_(k, l) = row[between_[static_cast<std::size_t>(l)]];
+    right_[k] = lcp.b[i] - row.head(x.size()).dot(x);
+  }
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(factor_);
+  if (cholesky.info() != Eigen::Success)
+    return false;
+  cholesky.solveInPlace(right_);
+  for (Eigen::Index k = 0; k < count; ++k)
+    x[between_[static_cast<std::size_t>(k)]] = right_[k];
+  return true;
+}
+
+} // namespace pydart2
