@@ -12,6 +12,7 @@ from pathlib import Path
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 from setuptools.command.build_py import build_py
+from setuptools.command.develop import develop
 
 ROOT = Path(__file__).resolve().parent
 
@@ -57,6 +58,16 @@ class BuildPackage(build_py):
                 )
 
 
+class Develop(develop):
+    """What setuptools does since version 80, in older ones too: easy_install finds no SciPy."""
+
+    def run(self) -> None:
+        no_deps = ["--no-deps"] if self.no_deps else []
+        result = subprocess.run([sys.executable, "-m", "pip", "install", "--editable", str(ROOT), *no_deps])
+        if result.returncode != 0:
+            sys.exit(result.returncode)
+
+
 def require(program: str, remedy: str) -> None:
     """End the build with one sentence if a program is missing."""
     if shutil.which(program) is None:
@@ -83,5 +94,5 @@ def run_cmake(command: list[str]) -> None:
 
 setup(
     ext_modules=[Extension("pydart2._pydart2_api", sources=[])],
-    cmdclass={"build_ext": BuildExtension, "build_py": BuildPackage},
+    cmdclass={"build_ext": BuildExtension, "build_py": BuildPackage, "develop": Develop},
 )

@@ -8,7 +8,7 @@ namespace pydart2 {
 namespace {
 
 constexpr int most_guesses = 12;
-constexpr double rounding = 1e-10; // of the largest number
+constexpr double rounding = 1e-13; // of the largest number; A has directions in which a force counts a hundred thousandth
 
 } // namespace
 

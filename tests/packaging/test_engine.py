@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from test_builds import ROOT, copy_sources, run
 
-PREFIX = ROOT / "build" / "engine" / "prefix"
+PREFIX = (ROOT / "build" / "engine" / "prefix").resolve()
 STATES = """
 import pydart2
 for name in ("cubes", "chain", "fullbody1", "softBodies", "shapes"):

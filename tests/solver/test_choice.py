@@ -151,6 +151,44 @@ def test_reduced_contacts_do_not_depend_on_the_solver() -> None:
     assert results(worlds[0], 50) == results(worlds[1], 50)
 
 
+def warm(world: pydart2.World) -> pydart2.World:
+    world.set_warm_start(True)
+    return world
+
+
+@pytest.mark.parametrize(
+    "make", [standing_atlas, held_cubes, lambda: skel("fullbody1")], ids=["Atlas", "cubes", "fullbody1"]
+)
+def test_warm_start_gives_the_engines_forces_to_rounding(make: Callable[[], pydart2.World]) -> None:
+    """In each step from the engine's own state: of four hundred, the forces of all contacts."""
+    ours, engine = warm(make()), make()
+    engine.set_constraint_solver("dart")
+    bearing = 0
+    for _ in range(400):
+        ours.x = engine.x
+        ours.step()
+        engine.step()
+        forces, expected = (world.collision_result.rows[:, 3:6] for world in (ours, engine))
+        assert np.abs(forces - expected).max(initial=0.0) <= 1e-6 * np.abs(expected).max(initial=1.0)
+        bearing += len(expected)
+    assert bearing > 400
+
+
+def test_warm_start_is_kept_and_restored() -> None:
+    """A clone has the option; after restore() the steps are those that followed the snapshot, bit by bit."""
+    world = warm(standing_atlas())
+    world.set_collision_detector(world.BULLET_COLLISION_DETECTOR)
+    world.step(100)
+    snapshot = world.snapshot(exact=True)
+    twin = world.clone()
+    after = results(world, 50)
+    world.restore(snapshot)
+    assert twin.warm_start()
+    assert results(world, 50) == results(twin, 50) == after
+    world.set_warm_start(False)
+    assert not world.warm_start()
+
+
 def test_engine_info() -> None:
     info = pydart2.engine_info()
     assert info.dart.startswith("6.")
