@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import pydart2
+from physics.models import standing_atlas
 
 
 def load(name: str, step: float) -> Any:
@@ -85,14 +84,8 @@ def test_shapes_fall_onto_the_floor() -> None:
 
 def test_atlas_stands() -> None:
     """Springs hold the pose; the feet rest on the floor for half a second and longer."""
-    scene = json.loads(Path(pydart2.data_path("sdf/atlas/standing.json")).read_text(encoding="ascii"))
-    world = pydart2.World(scene["time_step"], pydart2.data_path(scene["world"]))
-    robot = world.add_skeleton(pydart2.data_path(scene["robot"]))
-    robot.set_positions(scene["q"])
-    for dof in robot.dofs[6:]:
-        dof.set_spring_stiffness(scene["stiffness"])
-        dof.set_rest_position(dof.position())
-        dof.set_damping_coefficient(scene["damping"])
+    world = standing_atlas()
+    robot = world.skeletons[-1]
     start, fewest = robot.C, 100
     for _ in range(1000):
         world.step()

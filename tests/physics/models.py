@@ -1,7 +1,8 @@
-"""Tiny models, written as SKEL text. Metres and kilograms; y points up unless gravity says otherwise."""
+"""Tiny models in SKEL, and Atlas on its feet. Metres and kilograms; y points up unless gravity says otherwise."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -150,3 +151,16 @@ def creature(root: str = "free") -> str:
         frame = (-0.1, 0.05 * i, 0.0, 0.1 * i, 0.2, -0.1)
         parts.append(joint(kind, name, parent, name=f"{name}_joint", at=frame, **options))
     return skeleton(*parts, name="creature")
+
+
+def standing_atlas() -> pydart2.World:
+    """Atlas on the ground, held by springs, as data/SOURCES.md says."""
+    scene = json.loads(Path(pydart2.data_path("sdf/atlas/standing.json")).read_text(encoding="ascii"))
+    world = pydart2.World(scene["time_step"], pydart2.data_path(scene["world"]))
+    robot = world.add_skeleton(pydart2.data_path(scene["robot"]))
+    robot.set_positions(scene["q"])
+    for dof in robot.dofs[6:]:
+        dof.set_spring_stiffness(scene["stiffness"])
+        dof.set_rest_position(dof.position())
+        dof.set_damping_coefficient(scene["damping"])
+    return world

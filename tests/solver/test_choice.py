@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 import pydart2
+from physics.models import standing_atlas
 from pydart2.constraints import BallJointConstraint
 
 Array = NDArray[np.float64]
@@ -22,18 +21,6 @@ Array = NDArray[np.float64]
 
 def skel(name: str) -> pydart2.World:
     return pydart2.World(0.001, pydart2.data_path(f"skel/{name}.skel"))
-
-
-def standing_atlas() -> pydart2.World:
-    scene = json.loads(Path(pydart2.data_path("sdf/atlas/standing.json")).read_text(encoding="ascii"))
-    world = pydart2.World(scene["time_step"], pydart2.data_path(scene["world"]))
-    robot = world.add_skeleton(pydart2.data_path(scene["robot"]))
-    robot.set_positions(scene["q"])
-    for dof in robot.dofs[6:]:
-        dof.set_spring_stiffness(scene["stiffness"])
-        dof.set_rest_position(dof.position())
-        dof.set_damping_coefficient(scene["damping"])
-    return world
 
 
 def held_cubes() -> pydart2.World:
