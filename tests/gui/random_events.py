@@ -39,10 +39,11 @@ class Monkey:
 
     def __init__(self, model: str, seed: int) -> None:
         self.random = random.Random(seed)
-        world = pydart2.World(0.001)
+        step = 1.0 / 5000.0 if model == "chain" else 0.001  # s; the chain whips
+        world = pydart2.World(step)
         path = pydart2.data_path(MODELS[model])
         if path.endswith(".skel"):
-            world = pydart2.World(0.001, path)
+            world = pydart2.World(step, path)
         else:
             world.add_skeleton(path)
         assert world.recording is not None
