@@ -1,6 +1,9 @@
 #include "warm_lcp.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace pydart2 {
@@ -8,7 +11,7 @@ namespace pydart2 {
 namespace {
 
 constexpr int most_guesses = 12;
-constexpr double rounding = 1e-13; // of the largest number; A has directions in which a force counts a hundred thousandth
+constexpr double rounding = 1e-13; // of the largest number; in some directions A is only a hundred thousandth
 
 } // namespace
 
@@ -84,7 +87,7 @@ bool WarmLcp::pivot(
   return false;
 }
 
-/// The rows between their bounds from those at them; false if A is not positive definite there.
+/// The rows between their bounds from those at them; false if A is not positive definite there, or not finite.
 bool WarmLcp::solve_between(
     const BoxedLcp& lcp, const std::vector<int>& rows, const std::vector<Place>& places, Eigen::VectorXd& x)
 {
@@ -110,7 +113,7 @@ bool WarmLcp::solve_between(
   cholesky.solveInPlace(right_);
   for (Eigen::Index k = 0; k < count; ++k)
     x[between_[static_cast<std::size_t>(k)]] = right_[k];
-  return true;
+  return right_.allFinite();
 }
 
 } // namespace pydart2
