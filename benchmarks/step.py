@@ -23,8 +23,8 @@ def main() -> None:
     print("## A step\n\nTime of a step as a ratio to the plain C++ loop over Debian's engine; median (range).\n")
     print(table(["scene", LOOP, OURS, "bar", "recording", "bar", DEBIAN, PYPI + ", another engine"], rows))
     print(
-        "\nThe call from Python, with the interpreter's lock released meanwhile, takes 0.2 µs; that sets the limit on the\n"
-        "chain, whose step is short. `world.step(n)` makes one call."
+        "\nThe call from Python, with the interpreter's lock released meanwhile, takes 0.2 µs; that sets the limit on\n"
+        "the chain, whose step is short. `world.step(n)` makes one call."
     )
 
 
