@@ -417,9 +417,9 @@ class World:
     def set_warm_start(self, enable: bool = True) -> None:
         """Let the "fast" solver begin the search for the contact forces from those of the step before.
 
-        Off by default. Faster where many contacts last, but the forces are the engine's to rounding only, not to the bit
-        (nearer to the solution where the engine's direct solver gives up): what rests stays where it is, what tumbles
-        takes another path after a while. restore() and ``snapshot(exact=True)`` forget the step before.
+        Off by default. Faster where many contacts last, but the forces are the engine's to rounding only (nearer to the
+        solution where the engine's direct solver gives up): what rests stays where it is, what tumbles takes another
+        path after a while. restore() and ``snapshot(exact=True)`` forget the step before.
         """
         self._handle.set_warm_start(enable)
 
