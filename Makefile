@@ -49,14 +49,14 @@ soak: setup
 
 # AddressSanitizer and UndefinedBehaviorSanitizer on our own code; then what leaks. TESTS=tests/unit for a part.
 sanitize: setup
-	tools/instrumented.sh sanitize $(VENV)/bin/pytest -p no:cacheprovider $(TESTS)
+	tools/instrumented.sh sanitize $(VENV)/bin/pytest -p no:cacheprovider --ignore=tests/packaging $(TESTS)
 	ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=tests/soak/leaks.supp PYTHONMALLOC=malloc \
 	  tools/instrumented.sh sanitize $(VENV)/bin/python tests/soak/leaks.py
 
 # Lines of pydart2/ and src/cpp/ that the tests reach; HTML in build/coverage/html.
 coverage: setup
 	find build/coverage -name '*.gcda' -delete 2>/dev/null || true
-	tools/instrumented.sh coverage $(VENV)/bin/pytest -p no:cacheprovider --cov=pydart2 --cov-report=term $(TESTS)
+	tools/instrumented.sh coverage $(VENV)/bin/pytest -p no:cacheprovider --ignore=tests/packaging --cov=pydart2 --cov-report=term $(TESTS)
 	mkdir -p build/coverage/html
 	$(VENV)/bin/gcovr --root . --filter 'src/cpp/' --exclude-throw-branches --txt --html-details build/coverage/html/ \
 	  --fail-under-line 90 build/coverage/cmake
