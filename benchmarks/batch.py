@@ -9,7 +9,8 @@ import time
 from pathlib import Path
 
 import numpy as np
-from harness import ROUNDS, Ratio, loop_program, met, output
+from harness import ROUNDS, Ratio, met, output
+from loop import loop_arguments, loop_folder
 from scenes import scenes
 
 import pydart2
@@ -49,8 +50,7 @@ def warm_world(solver: str = "dart") -> pydart2.World:
 
 def processes() -> float:
     """Steps per second that two C++ processes reach together; each does half of the batch's steps."""
-    numbers = (SCENE.dt, SCENE.gravity, 0.0, 0.0, SCENE.warm, STEPS, WORLDS // THREADS)
-    command = [str(loop_program()), str(SCENE.world), "-", *map(str, numbers)]
+    command = [str(loop_folder() / "loop"), str(STEPS), str(WORLDS // THREADS), *loop_arguments(SCENE)]
     running = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(THREADS)]
     return sum(1.0 / float(process.communicate()[0].split()[1]) for process in running)
 

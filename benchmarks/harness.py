@@ -45,26 +45,6 @@ def python_player(python: str | Path, program: str, **environment: str) -> Playe
     return play
 
 
-def loop_program() -> Path:
-    """The plain C++ loop, built on first use."""
-    folder = BUILD / "loop"
-    output("cmake", "-S", PLAYERS, "-B", folder)
-    output("cmake", "--build", folder)
-    return folder / "loop"
-
-
-def loop_player() -> Player:
-    """The plain C++ loop; it answers the question "step"."""
-    program = loop_program()
-
-    def play(question: str, scene: Scene) -> Figures:
-        numbers = (scene.dt, scene.gravity, scene.stiffness, scene.damping, scene.warm, scene.steps, 3, *scene.q)
-        seconds, _wall = output(program, scene.world or "-", scene.robot or "-", *map(str, numbers)).split()
-        return {"step": float(seconds)}
-
-    return play
-
-
 def pypi_dartpy() -> Path:
     """The Python of a virtual environment of its own with PyPI's dartpy."""
     folder = BUILD / "dartpy"

@@ -35,8 +35,8 @@ class Snapshot:
     >>> world.restore(start)
 
     Positions, velocities, accelerations, forces, commands, external forces, constraint impulses, the points of soft
-    bodies, time, frame and contacts; from World.snapshot(). It holds no reference to its world, can be pickled, and can
-    be saved. The recording is not in it.
+    bodies, time, frame, contacts, and what a warm start remembers; from World.snapshot(). It holds no reference to its
+    world, can be pickled, and can be saved. The recording is not in it.
 
     Attributes
     ----------

@@ -269,7 +269,7 @@ class World:
                 self._handle.step(1)
         else:
             self._handle.step(n)
-        self.collision_result.update()
+        self.collision_result._looked = None  # as update(), without the call
 
     def _find_controllers(self) -> None:
         """Note who acts before each step, so that step() does not have to look."""
@@ -419,7 +419,7 @@ class World:
 
         Off by default. Faster where many contacts last, but the forces are the engine's to rounding only (nearer to the
         solution where the engine's direct solver gives up): what rests stays where it is, what tumbles takes another
-        path after a while. restore() and ``snapshot(exact=True)`` forget the step before.
+        path after a while. What is remembered of the step before is in a snapshot; reset() forgets it.
         """
         self._handle.set_warm_start(enable)
 

@@ -1,9 +1,6 @@
-// A plain C++ loop over World::step(): the limit of what any binding can reach.
-// loop WORLD|- ROBOT|- DT GRAVITY STIFFNESS DAMPING WARM STEPS REPEATS [Q...]: prints the seconds of CPU time of one step (the
-// least of REPEATS times STEPS steps from the same state), and those on the wall (of all of them).
+// A plain C++ loop over World::step(): the limit of what any binding can reach. A library, for a loop in the process that
+// it is compared with; loop_main.cpp is a program of its own.
 
-#include <algorithm>
-#include <chrono>
 #include <dart/common/LocalResourceRetriever.hpp>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/Skeleton.hpp>
@@ -13,14 +10,18 @@
 #include <dart/utils/sdf/SdfParser.hpp>
 #include <dart/utils/urdf/DartLoader.hpp>
 #include <ctime>
-#include <iostream>
-#include <limits>
 #include <string>
 #include <vector>
 
 using dart::dynamics::SkeletonPtr;
 
-SkeletonPtr load_robot(const std::string& path)
+struct Loop
+{
+  dart::simulation::WorldPtr world;
+  std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>> start; // positions and velocities of each skeleton
+};
+
+static SkeletonPtr load_robot(const std::string& path)
 {
   const auto uri = dart::common::Uri::createFromPath(path);
   if (path.substr(path.rfind('.')) == ".urdf")
@@ -30,18 +31,22 @@ SkeletonPtr load_robot(const std::string& path)
   return dart::utils::SdfParser::readSkeleton(uri, dart::utils::SdfParser::Options(retriever));
 }
 
-double cpu_seconds()
+static double cpu_seconds()
 {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-int main(int argc, char** argv)
+extern "C" {
+
+// WORLD|- ROBOT|- DT GRAVITY STIFFNESS DAMPING WARM [Q...]: loads the scene and takes WARM steps.
+Loop* loop_make(int count, const char* const* arguments)
 {
-  const std::vector<std::string> args(argv + 1, argv + argc);
+  const std::vector<std::string> args(arguments, arguments + count);
   const std::string &model = args.at(0), &robot = args.at(1);
-  dart::simulation::WorldPtr world;
+  auto loop = std::make_unique<Loop>();
+  auto& world = loop->world;
   if (model != "-")
     world = dart::utils::SkelParser::readWorld(dart::common::Uri::createFromPath(model));
   else
@@ -51,8 +56,8 @@ int main(int argc, char** argv)
   if (robot != "-") {
     const SkeletonPtr skel = load_robot(robot);
     world->addSkeleton(skel);
-    for (std::size_t i = 9; i < args.size(); ++i)
-      skel->setPosition(i - 9, std::stod(args[i]));
+    for (std::size_t i = 7; i < args.size(); ++i)
+      skel->setPosition(i - 7, std::stod(args[i]));
     const double stiffness = std::stod(args.at(4));
     for (std::size_t i = 6; stiffness > 0 && i < skel->getNumDofs(); ++i) {
       auto* dof = skel->getDof(i);
@@ -61,24 +66,39 @@ int main(int argc, char** argv)
       dof->setDampingCoefficient(std::stod(args.at(5)));
     }
   }
-  const int warm = std::stoi(args.at(6)), steps = std::stoi(args.at(7)), repeats = std::stoi(args.at(8));
-  for (int i = 0; i < warm; ++i)
+  for (int i = 0; i < std::stoi(args.at(6)); ++i)
     world->step();
-  std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>> start;
   for (std::size_t i = 0; i < world->getNumSkeletons(); ++i)
-    start.emplace_back(world->getSkeleton(i)->getPositions(), world->getSkeleton(i)->getVelocities());
-  double least = std::numeric_limits<double>::infinity();
-  const auto first = std::chrono::steady_clock::now();
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    for (std::size_t i = 0; i < start.size(); ++i) {
-      world->getSkeleton(i)->setPositions(start[i].first);
-      world->getSkeleton(i)->setVelocities(start[i].second);
-    }
-    const double begin = cpu_seconds();
-    for (int i = 0; i < steps; ++i)
-      world->step();
-    least = std::min(least, cpu_seconds() - begin);
+    loop->start.emplace_back(world->getSkeleton(i)->getPositions(), world->getSkeleton(i)->getVelocities());
+  return loop.release();
+}
+
+// Back to the state after the first steps.
+void loop_restart(Loop* loop)
+{
+  for (std::size_t i = 0; i < loop->start.size(); ++i) {
+    loop->world->getSkeleton(i)->setPositions(loop->start[i].first);
+    loop->world->getSkeleton(i)->setVelocities(loop->start[i].second);
   }
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - first;
-  std::cout << least / steps << " " << wall.count() / steps / repeats << "\n";
+}
+
+// Seconds of this thread's CPU time.
+double loop_steps(Loop* loop, int count)
+{
+  const double begin = cpu_seconds();
+  for (int i = 0; i < count; ++i)
+    loop->world->step();
+  return cpu_seconds() - begin;
+}
+
+// The first position of the last skeleton, to see that it is the same simulation.
+double loop_position(Loop* loop)
+{
+  return loop->world->getSkeleton(loop->world->getNumSkeletons() - 1)->getPosition(0);
+}
+
+void loop_delete(Loop* loop)
+{
+  delete loop;
+}
 }

@@ -82,10 +82,9 @@ void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
 
 Blueprint blueprint(WorldRecord& world)
 {
-  Archive model, state;
+  Archive model;
   visit_model(model, world);
-  visit_state(state, world);
-  return {plan_of(world), model.texts, model.numbers, state.numbers};
+  return {plan_of(world), model.texts, model.numbers, state_of(world)};
 }
 
 WorldRef build(const Blueprint& blueprint)
@@ -95,12 +94,10 @@ WorldRef build(const Blueprint& blueprint)
     Archive::refuse();
   const auto world = Manager::instance().add(with_ode([&] { return world_from(plan[0]); }), plan[0]);
   follow_plan(*world, plan);
-  Archive model(blueprint.texts, blueprint.numbers), state({}, blueprint.state);
+  Archive model(blueprint.texts, blueprint.numbers);
   visit_model(model, *world);
   model.finish();
-  visit_state(state, *world);
-  state.finish();
-  forget_history(*world);
+  restore_state(*world, blueprint.state);
   const auto made = pydart2::blueprint(*world);
   if (made.texts != blueprint.texts || made.numbers != blueprint.numbers || made.state != blueprint.state)
     throw Error(Kind::engine, "the world cannot be made again: the engine does not take some of its numbers back");

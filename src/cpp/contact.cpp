@@ -1,5 +1,6 @@
 #include "contact.hpp"
 
+#include <algorithm>
 #include <dart/collision/CollisionObject.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/BodyNode.hpp>
@@ -37,12 +38,14 @@ Side side(const WorldRecord& world, const dart::collision::CollisionObject& obje
 
 } // namespace
 
-std::vector<double> pack_contacts(const WorldRecord& world)
+std::size_t num_contacts(const WorldRecord& world)
 {
-  const auto& contacts = world.world->getLastCollisionResult().getContacts();
-  std::vector<double> rows;
-  rows.reserve(contacts.size() * contact_columns);
-  for (const auto& contact : contacts) {
+  return world.world->getLastCollisionResult().getNumContacts();
+}
+
+void write_contacts(const WorldRecord& world, double* out)
+{
+  for (const auto& contact : world.world->getLastCollisionResult().getContacts()) {
     const Side a = side(world, *contact.collisionObject1);
     const Side b = side(world, *contact.collisionObject2);
     const auto& p = contact.point;
@@ -51,9 +54,8 @@ std::vector<double> pack_contacts(const WorldRecord& world)
     const double row[contact_columns] = {
         p.x(), p.y(), p.z(), f.x(), f.y(), f.z(), double(a.skeleton), double(a.body), double(b.skeleton),
         double(b.body), double(a.shape), double(b.shape), n.x(), n.y(), n.z(), contact.penetrationDepth};
-    rows.insert(rows.end(), row, row + contact_columns);
+    out = std::copy(row, row + contact_columns, out);
   }
-  return rows;
 }
 
 void check_collision(WorldRecord& world)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
 #include "world_record.hpp"
 
@@ -10,8 +10,11 @@ namespace pydart2 {
 /// shape index of both (2), normal(3), penetration depth. World frame, m and N; an index is -1 where there is none.
 constexpr int contact_columns = 16;
 
-/// The contacts of the last collision pass, in the engine's order, one row each.
-std::vector<double> pack_contacts(const WorldRecord& world);
+/// The contacts of the last collision pass.
+std::size_t num_contacts(const WorldRecord& world);
+
+/// In the engine's order, one row each.
+void write_contacts(const WorldRecord& world, double* rows);
 
 /// Runs collision detection and solves for the contact forces without a step, and leaves no impulse behind.
 void check_collision(WorldRecord& world);

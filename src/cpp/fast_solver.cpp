@@ -39,48 +39,22 @@ Solver default_solver()
   }
 }
 
-void install_solver(dart::simulation::World& world, Solver solver)
+void install_solver(dart::simulation::World& world)
 {
-  auto* fast = dynamic_cast<FastConstraintSolver*>(world.getConstraintSolver());
-  if (fast == nullptr) {
-    auto owned = std::make_unique<FastConstraintSolver>();
-    fast = owned.get();
-    world.setConstraintSolver(std::move(owned));
-  }
-  fast->set_solver(solver);
+  auto solver = std::make_unique<FastConstraintSolver>();
+  solver->set_solver(default_solver());
+  world.setConstraintSolver(std::move(solver));
 }
 
-Solver installed_solver(const dart::simulation::World& world)
+FastConstraintSolver& fast_solver(const dart::simulation::World& world)
 {
-  const auto* fast = dynamic_cast<const FastConstraintSolver*>(world.getConstraintSolver());
-  return fast == nullptr ? Solver::dart : fast->solver();
+  return dynamic_cast<FastConstraintSolver&>(*const_cast<dart::simulation::World&>(world).getConstraintSolver());
 }
 
-void set_contact_reduction(dart::simulation::World& world, bool enable)
+void FastConstraintSolver::set_warm_start(bool enable)
 {
-  dynamic_cast<FastConstraintSolver&>(*world.getConstraintSolver()).set_contact_reduction(enable);
-}
-
-bool contact_reduction(const dart::simulation::World& world)
-{
-  return dynamic_cast<const FastConstraintSolver&>(*world.getConstraintSolver()).contact_reduction();
-}
-
-void set_warm_start(dart::simulation::World& world, bool enable)
-{
-  auto& solver = dynamic_cast<FastConstraintSolver&>(*world.getConstraintSolver());
-  solver.set_warm_start(enable);
-  solver.forget_warm_start();
-}
-
-bool warm_start(const dart::simulation::World& world)
-{
-  return dynamic_cast<const FastConstraintSolver&>(*world.getConstraintSolver()).warm_start();
-}
-
-void forget_warm_start(dart::simulation::World& world)
-{
-  dynamic_cast<FastConstraintSolver&>(*world.getConstraintSolver()).forget_warm_start();
+  warm_start_ = enable;
+  warm_lcp_.forget();
 }
 
 void FastConstraintSolver::setFromOtherConstraintSolver(const ConstraintSolver& from)

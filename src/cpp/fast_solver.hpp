@@ -19,20 +19,6 @@ const char* name_of(Solver solver);
 /// What a new world gets: "fast", or what the environment variable PYDART2_SOLVER names.
 Solver default_solver();
 
-/// Gives a world a constraint solver. Its collision detector, contacts, constraints and LCP solvers stay as they are,
-/// and so does the order of its contacts.
-void install_solver(dart::simulation::World& world, Solver solver);
-Solver installed_solver(const dart::simulation::World& world);
-
-/// Leaves out contacts that the others of a face pair make up for (contact_reduction.hpp); of a world with our solver.
-void set_contact_reduction(dart::simulation::World& world, bool enable);
-bool contact_reduction(const dart::simulation::World& world);
-
-/// Lets the fast solver begin each step's LCP from the one before (warm_lcp.hpp).
-void set_warm_start(dart::simulation::World& world, bool enable);
-bool warm_start(const dart::simulation::World& world);
-void forget_warm_start(dart::simulation::World& world);
-
 /// DART's constraint solver with a faster way to the constraint matrix (ConstraintMatrix). All else is DART's own:
 /// collision detection, the making and grouping of constraints, the right-hand sides and bounds, the LCP solvers.
 class FastConstraintSolver final : public dart::constraint::BoxedLcpConstraintSolver
@@ -41,11 +27,15 @@ public:
   /// `dart` turns all over to the base class.
   void set_solver(Solver solver) { solver_ = solver; }
   Solver solver() const { return solver_; }
+
+  /// Leaves out contacts that the others of a face pair make up for (contact_reduction.hpp).
   void set_contact_reduction(bool enable) { contact_reduction_ = enable; }
   bool contact_reduction() const { return contact_reduction_; }
-  void set_warm_start(bool enable) { warm_start_ = enable; }
+
+  /// Begins each step's LCP from the one before (warm_lcp.hpp); forgets what it remembers.
+  void set_warm_start(bool enable);
   bool warm_start() const { return warm_start_; }
-  void forget_warm_start() { warm_lcp_.forget(); }
+  WarmLcp& warm_lcp() { return warm_lcp_; }
 
   /// Takes over what `other` has, its collision group included: a new one would change the order of the contacts.
   void setFromOtherConstraintSolver(const dart::constraint::ConstraintSolver& other) override;
@@ -67,5 +57,12 @@ private:
   WarmLcp warm_lcp_;
   Eigen::VectorXd warm_x_;
 };
+
+/// Gives a world such a solver, set to default_solver(). Its collision detector, contacts, constraints and LCP solvers
+/// stay as they are, and so does the order of its contacts.
+void install_solver(dart::simulation::World& world);
+
+/// The solver that install_solver() gave.
+FastConstraintSolver& fast_solver(const dart::simulation::World& world);
 
 } // namespace pydart2

@@ -133,12 +133,13 @@ void visit_model(Archive& archive, WorldRecord& record)
   for (const auto& item : record.skeletons)
     visit_skeleton(archive, *item->skeleton);
   visit_detector(archive, *world.getConstraintSolver());
+  auto& solver = fast_solver(world);
   archive.text(
-      [&] { return std::string(name_of(installed_solver(world))); },
-      [&](const auto& name) { install_solver(world, solver_named(name)); });
+      [&] { return std::string(name_of(solver.solver())); },
+      [&](const auto& name) { solver.set_solver(solver_named(name)); });
   archive.number(
-      [&] { return double(contact_reduction(world)); }, [&](double on) { set_contact_reduction(world, on != 0.0); });
-  archive.number([&] { return double(warm_start(world)); }, [&](double on) { set_warm_start(world, on != 0.0); });
+      [&] { return double(solver.contact_reduction()); }, [&](double on) { solver.set_contact_reduction(on != 0.0); });
+  archive.number([&] { return double(solver.warm_start()); }, [&](double on) { solver.set_warm_start(on != 0.0); });
   visit_ignored_pairs(archive, record);
   visit_constraints(archive, record);
 }

@@ -1,6 +1,21 @@
 #include "recording.hpp"
 
+#include <algorithm>
+
+#include "contact.hpp"
+
 namespace pydart2 {
+
+namespace {
+
+constexpr std::size_t piece_size = 8192; // numbers
+
+} // namespace
+
+std::size_t Frame::size() const
+{
+  return num_states + num_contacts * contact_columns;
+}
 
 void Recording::set_enabled(bool enabled)
 {
@@ -11,17 +26,27 @@ void Recording::set_enabled(bool enabled)
 
 void Recording::clear()
 {
+  pieces_.clear();
+  pieces_.shrink_to_fit();
   frames_.clear();
   frames_.shrink_to_fit();
   first_ = 0;
   bytes_ = 0;
 }
 
-void Recording::add(Frame frame)
+const Frame& Recording::add(std::size_t num_states, std::size_t num_contacts, int layout)
 {
+  Frame frame{nullptr, num_states, num_contacts, layout};
+  if (pieces_.empty() || pieces_.back().numbers.capacity() < pieces_.back().numbers.size() + frame.size())
+    pieces_.emplace_back().numbers.reserve(std::max(piece_size, frame.size()));
+  auto& piece = pieces_.back();
+  frame.state = piece.numbers.data() + piece.numbers.size();
+  piece.numbers.resize(piece.numbers.size() + frame.size());
+  ++piece.num_frames;
   bytes_ += frame.bytes();
-  frames_.push_back(std::move(frame));
+  frames_.push_back(frame);
   drop_oldest();
+  return frames_.back();
 }
 
 const Frame* Recording::find(long index) const
@@ -43,6 +68,8 @@ void Recording::drop_oldest()
     bytes_ -= frames_.front().bytes();
     frames_.pop_front();
     ++first_;
+    if (--pieces_.front().num_frames == 0)
+      pieces_.pop_front();
   }
 }
 

@@ -9,14 +9,17 @@ namespace pydart2 {
 /// One frame: the states of all skeletons, one after another ([q, dq] each), and the contacts (contact.hpp).
 struct Frame
 {
-  std::vector<double> state;
-  std::vector<double> contacts;
-  int layout = 0; ///< WorldRecord::layout() when it was made.
+  double* state;
+  std::size_t num_states, num_contacts;
+  int layout; ///< WorldRecord::layout() when it was made.
 
-  std::size_t bytes() const { return sizeof(Frame) + sizeof(double) * (state.capacity() + contacts.capacity()); }
+  double* contacts() const { return state + num_states; }
+  std::size_t size() const; ///< Of the numbers.
+  std::size_t bytes() const { return sizeof(Frame) + sizeof(double) * size(); }
 };
 
-/// The frames since the last reset, up to a memory limit; the oldest go first.
+/// The frames since the last reset, up to a memory limit; the oldest go first. Their numbers are one growing array, in
+/// pieces that stay where they are.
 class Recording
 {
 public:
@@ -24,7 +27,9 @@ public:
   bool enabled() const { return enabled_; }
 
   void clear();
-  void add(Frame frame);
+
+  /// A frame more, whose numbers are still to be written.
+  const Frame& add(std::size_t num_states, std::size_t num_contacts, int layout);
 
   /// Frames since the last clear(), those that are gone included.
   long num_frames() const { return first_ + static_cast<long>(frames_.size()); }
@@ -40,9 +45,16 @@ public:
   void set_limit(std::size_t bytes);
 
 private:
+  struct Piece
+  {
+    std::vector<double> numbers;
+    std::size_t num_frames = 0; ///< That are kept.
+  };
+
   void drop_oldest();
 
   bool enabled_ = false;
+  std::deque<Piece> pieces_;
   std::deque<Frame> frames_;
   long first_ = 0;
   std::size_t bytes_ = 0;

@@ -5,6 +5,8 @@
 #include <dart/dynamics/PointMass.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
 
+#include "archive.hpp"
+#include "checks.hpp"
 #include "constraint_record.hpp"
 #include "detector.hpp"
 #include "fast_solver.hpp"
@@ -62,9 +64,7 @@ void visit_point(Archive& archive, PointMass& point)
       [&](Vector value) { point.setConstraintImpulse(Eigen::Vector3d(value), true); });
 }
 
-} // namespace
-
-void visit_state(Archive& archive, WorldRecord& record)
+void visit(Archive& archive, WorldRecord& record)
 {
   auto& world = *record.world;
   archive.number([&] { return world.getTime(); }, [&](double time) { world.setTime(time); });
@@ -79,8 +79,35 @@ void visit_state(Archive& archive, WorldRecord& record)
       for (auto* point : skeleton.getSoftBodyNode(i)->getPointMasses())
         visit_point(archive, *point);
   }
-  if (archive.is_in())
-    world.getConstraintSolver()->clearLastCollisionResult();
+}
+
+} // namespace
+
+std::vector<double> state_of(WorldRecord& record)
+{
+  Archive archive;
+  visit(archive, record);
+  const auto memory = fast_solver(*record.world).warm_lcp().memory();
+  archive.numbers.insert(archive.numbers.end(), memory.begin(), memory.end());
+  return archive.numbers;
+}
+
+void restore_state(WorldRecord& record, const std::vector<double>& state)
+{
+  auto& solver = fast_solver(*record.world);
+  Archive now;
+  visit(now, record);
+  const auto size = now.numbers.size();
+  if (state.size() < size || (state.size() > size && !solver.warm_start()))
+    check::size(static_cast<long>(state.size()), size, "the snapshot");
+  if (!Eigen::Map<const Eigen::VectorXd>(state.data(), static_cast<long>(state.size())).allFinite())
+    throw Error(Kind::value, "the snapshot must be finite");
+  const auto end = state.begin() + static_cast<std::ptrdiff_t>(size);
+  if (!solver.warm_lcp().remember({end, state.end()}))
+    throw Error(Kind::value, "the snapshot does not end with what a solver with a warm start remembers");
+  Archive archive({}, {state.begin(), end});
+  visit(archive, record);
+  forget_history(record);
 }
 
 void forget_history(WorldRecord& record)
@@ -88,7 +115,6 @@ void forget_history(WorldRecord& record)
   auto& solver = *record.world->getConstraintSolver();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
   renew_detector(solver);
-  forget_warm_start(*record.world);
   for (auto& constraint : record.constraints)
     renew(constraint, solver);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace pydart2 {
 
@@ -41,6 +42,37 @@ bool WarmLcp::solve(std::size_t group, const BoxedLcp& lcp, Eigen::VectorXd& x)
       lo_[i] = -hi_[i];
     }
   return pivot(lcp, lo_, hi_, all, memory.all, x);
+}
+
+std::vector<double> WarmLcp::memory() const
+{
+  std::vector<double> numbers;
+  for (const Memory& memory : memories_) {
+    numbers.push_back(static_cast<double>(memory.all.size()));
+    for (const auto* places : {&memory.normal, &memory.all})
+      for (const Place place : *places)
+        numbers.push_back(static_cast<double>(place));
+  }
+  return numbers;
+}
+
+bool WarmLcp::remember(const std::vector<double>& memory)
+{
+  std::vector<Memory> memories;
+  for (auto next = memory.begin(); next != memory.end();) {
+    const double size = *next++;
+    if (!(size >= 0.0 && 2.0 * size <= static_cast<double>(memory.end() - next) && size == std::floor(size)))
+      return false;
+    Memory& read = memories.emplace_back();
+    for (auto* places : {&read.normal, &read.all})
+      for (const auto end = next + static_cast<std::ptrdiff_t>(size); next != end; ++next) {
+        if (*next != 0.0 && *next != 1.0 && *next != 2.0)
+          return false;
+        places->push_back(static_cast<Place>(*next));
+      }
+  }
+  memories_ = std::move(memories);
+  return true;
 }
 
 bool WarmLcp::pivot(

@@ -29,6 +29,12 @@ public:
   /// Forgets the steps before.
   void forget() { memories_.clear(); }
 
+  /// What it remembers: of each group how many rows, then where they were without friction and with it.
+  std::vector<double> memory() const;
+
+  /// Takes that back; false, and nothing changes, if these are other numbers.
+  bool remember(const std::vector<double>& memory);
+
 private:
   enum class Place : char { between, low, high };
 

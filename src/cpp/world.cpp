@@ -30,12 +30,10 @@ dart::simulation::WorldPtr make_world(double time_step)
 
 void record(WorldRecord& world)
 {
-  Frame frame;
-  frame.state.resize(static_cast<std::size_t>(num_states(world)));
-  write_states(world, frame.state.data());
-  frame.contacts = pack_contacts(world);
-  frame.layout = world.layout();
-  world.recording.add(std::move(frame));
+  const auto& frame
+      = world.recording.add(static_cast<std::size_t>(num_states(world)), num_contacts(world), world.layout());
+  write_states(world, frame.state);
+  write_contacts(world, frame.contacts());
 }
 
 void reset_skeleton(dart::dynamics::Skeleton& skeleton)
@@ -65,11 +63,6 @@ const Frame& kept_frame(const WorldRecord& world, long index)
         "frame " + std::to_string(index) + " is not kept; the recording has frames "
             + std::to_string(world.recording.first_frame()) + " to " + std::to_string(world.recording.num_frames() - 1));
   return *frame;
-}
-
-void write_contacts(const std::vector<double>& rows, Output& out)
-{
-  std::copy(rows.begin(), rows.end(), out.matrix(static_cast<long>(rows.size()) / contact_columns, contact_columns));
 }
 
 } // namespace
@@ -196,6 +189,7 @@ void WorldHandle::reset()
     reset_skeleton(*skeleton->skeleton);
   if (record.frame > 0) // a fresh world's detector has the engine's own order of contacts
     forget_history(record);
+  fast_solver(*record.world).warm_lcp().forget();
   record.frame = 0;
   if (record.recording.enabled())
     clear_recording();
@@ -250,32 +244,32 @@ void WorldHandle::set_collision_detector(const std::string& name)
 
 std::string WorldHandle::constraint_solver() const
 {
-  return name_of(installed_solver(*world().world));
+  return name_of(fast_solver(*world().world).solver());
 }
 
 void WorldHandle::set_constraint_solver(const std::string& name)
 {
-  install_solver(*world().world, solver_named(name));
+  fast_solver(*world().world).set_solver(solver_named(name));
 }
 
 bool WorldHandle::contact_reduction() const
 {
-  return pydart2::contact_reduction(*world().world);
+  return fast_solver(*world().world).contact_reduction();
 }
 
 void WorldHandle::set_contact_reduction(bool enable)
 {
-  pydart2::set_contact_reduction(*world().world, enable);
+  fast_solver(*world().world).set_contact_reduction(enable);
 }
 
 bool WorldHandle::warm_start() const
 {
-  return pydart2::warm_start(*world().world);
+  return fast_solver(*world().world).warm_start();
 }
 
 void WorldHandle::set_warm_start(bool enable)
 {
-  pydart2::set_warm_start(*world().world, enable);
+  fast_solver(*world().world).set_warm_start(enable);
 }
 
 void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)
@@ -303,12 +297,13 @@ void WorldHandle::ignore_no_pair()
 
 int WorldHandle::num_contacts() const
 {
-  return static_cast<int>(world().world->getLastCollisionResult().getNumContacts());
+  return static_cast<int>(pydart2::num_contacts(world()));
 }
 
 void WorldHandle::contacts(Output& out) const
 {
-  write_contacts(pack_contacts(world()), out);
+  const auto& record = world();
+  write_contacts(record, out.matrix(static_cast<long>(pydart2::num_contacts(record)), contact_columns));
 }
 
 void WorldHandle::add_ball_joint_constraint(
@@ -371,20 +366,22 @@ bool WorldHandle::set_frame(long index)
   // A skeleton that was added after this frame keeps its state.
   std::vector<double> states(static_cast<std::size_t>(num_states(record)));
   write_states(record, states.data());
-  std::copy(frame->state.begin(), frame->state.end(), states.begin());
+  std::copy(frame->state, frame->contacts(), states.begin());
   read_states(record, states.data());
   return true;
 }
 
 void WorldHandle::frame_states(long index, Output& out) const
 {
-  const auto& state = kept_frame(world(), index).state;
-  std::copy(state.begin(), state.end(), out.vector(static_cast<long>(state.size())));
+  const auto& frame = kept_frame(world(), index);
+  std::copy(frame.state, frame.contacts(), out.vector(static_cast<long>(frame.num_states)));
 }
 
 void WorldHandle::frame_contacts(long index, Output& out) const
 {
-  write_contacts(kept_frame(world(), index).contacts, out);
+  const auto& frame = kept_frame(world(), index);
+  double* rows = out.matrix(static_cast<long>(frame.num_contacts), contact_columns);
+  std::copy(frame.contacts(), frame.contacts() + frame.num_contacts * contact_columns, rows);
 }
 
 void WorldHandle::clear_recording()

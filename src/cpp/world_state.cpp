@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "checks.hpp"
+#include "archive.hpp"
 #include "clone.hpp"
-#include "errors.hpp"
 #include "model.hpp"
 #include "state.hpp"
 #include "world.hpp"
@@ -18,6 +17,11 @@ void write(const std::vector<double>& numbers, Output& out)
   std::copy(numbers.begin(), numbers.end(), out.vector(static_cast<long>(numbers.size())));
 }
 
+std::vector<double> numbers(const VectorIn& in)
+{
+  return {in.data, in.data + in.size};
+}
+
 } // namespace
 
 void WorldHandle::snapshot(bool exact, Output& out)
@@ -25,22 +29,12 @@ void WorldHandle::snapshot(bool exact, Output& out)
   auto& record = world();
   if (exact)
     forget_history(record);
-  Archive archive;
-  visit_state(archive, record);
-  write(archive.numbers, out);
+  write(state_of(record), out);
 }
 
 void WorldHandle::restore(const VectorIn& snapshot)
 {
-  auto& record = world();
-  Archive size;
-  visit_state(size, record);
-  check::size(snapshot.size, size.numbers.size(), "the snapshot");
-  if (!snapshot.eigen().allFinite())
-    throw Error(Kind::value, "the snapshot must be finite");
-  Archive archive({}, {snapshot.data, snapshot.data + snapshot.size});
-  visit_state(archive, record);
-  forget_history(record);
+  restore_state(world(), numbers(snapshot));
 }
 
 std::vector<std::string> WorldHandle::plan() const
@@ -74,7 +68,6 @@ WorldHandle WorldHandle::rebuild(
     const VectorIn& model_numbers,
     const VectorIn& snapshot)
 {
-  const auto numbers = [](const VectorIn& in) { return std::vector<double>(in.data, in.data + in.size); };
   return WorldHandle(build({plan, model_texts, numbers(model_numbers), numbers(snapshot)}));
 }
 

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 import pydart2
 from physics.models import standing_atlas
 from pydart2.constraints import BallJointConstraint
+from pydart2.state import Snapshot
 
 Array = NDArray[np.float64]
 
@@ -174,6 +176,36 @@ def test_warm_start_is_kept_and_restored() -> None:
     assert results(world, 50) == results(twin, 50) == after
     world.set_warm_start(False)
     assert not world.warm_start()
+
+
+def test_what_warm_start_remembers_is_in_a_snapshot(tmp_path: Path) -> None:
+    """Without ``exact``, with a detector that has no memory of its own; a snapshot is checked before it is taken."""
+    world = warm(skel("cubes"))
+    world.set_collision_detector(world.DART_COLLISION_DETECTOR)
+    before = world.snapshot()
+    world.step(300)
+    snapshot = world.snapshot()
+    contacts = len(world.collision_result.contacts)
+    remembered = snapshot.values[len(before.values) :]
+    assert len(remembered) >= 6 * contacts  # three rows of each contact, twice, and the sizes of the groups
+    twin = world.clone()
+    after = results(world, 50)
+    world.reset()
+    assert len(world.snapshot().values) == len(before.values)
+    world.restore(snapshot)
+    assert world.snapshot() == snapshot
+    assert results(world, 50) == results(twin, 50) == after
+
+    path = tmp_path / "warm.npz"
+    for damaged in (snapshot.values[:-1], np.append(snapshot.values, 3.0)):
+        Snapshot(damaged.copy(), np.array(snapshot.contacts), snapshot.model).save(path)
+        state = world.snapshot()
+        with pytest.raises(ValueError, match="warm start"):
+            world.restore(Snapshot.load(path))
+        assert world.snapshot() == state
+    world.set_warm_start(False)
+    with pytest.raises(ValueError, match="the snapshot needs"):
+        world.restore(snapshot, strict=False)
 
 
 def test_engine_info() -> None:

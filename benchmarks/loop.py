@@ -1,0 +1,55 @@
+"""The plain C++ loop over Debian's engine: in this process, or as a program of its own."""
+
+from __future__ import annotations
+
+import ctypes
+from pathlib import Path
+
+from harness import BUILD, PLAYERS, Figures, Player, output
+from scenes import Scene
+
+
+def loop_folder() -> Path:
+    """Where the loop is, built on first use."""
+    folder = BUILD / "loop"
+    output("cmake", "-S", PLAYERS, "-B", folder)
+    output("cmake", "--build", folder)
+    return folder
+
+
+def loop_arguments(scene: Scene) -> list[str]:
+    """What loop_make() takes."""
+    numbers = (scene.dt, scene.gravity, scene.stiffness, scene.damping, scene.warm, *scene.q)
+    return [scene.world or "-", scene.robot or "-", *map(str, numbers)]
+
+
+def loop_player() -> Player:
+    """The program; it answers the question "step"."""
+    program = loop_folder() / "loop"
+
+    def play(question: str, scene: Scene) -> Figures:
+        seconds, _wall = output(program, str(scene.steps), "3", *loop_arguments(scene)).split()
+        return {"step": float(seconds)}
+
+    return play
+
+
+class Loop:
+    """A scene, stepped by C++ in this process."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._library = library = ctypes.CDLL(str(loop_folder() / "libloop_world.so"))
+        library.loop_make.restype = ctypes.c_void_p
+        library.loop_position.argtypes = [ctypes.c_void_p]
+        library.loop_steps.argtypes = [ctypes.c_void_p, ctypes.c_int]
+        library.loop_steps.restype = library.loop_position.restype = ctypes.c_double
+        arguments = [argument.encode() for argument in loop_arguments(scene)]
+        self._loop = library.loop_make(len(arguments), (ctypes.c_char_p * len(arguments))(*arguments))
+
+    def steps(self, count: int) -> float:
+        """Take steps; seconds of CPU time."""
+        return float(self._library.loop_steps(self._loop, count))
+
+    def position(self) -> float:
+        """The first position of the last skeleton."""
+        return float(self._library.loop_position(self._loop))
