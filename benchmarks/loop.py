@@ -9,10 +9,10 @@ from harness import BUILD, PLAYERS, Figures, Player, output
 from scenes import Scene
 
 
-def loop_folder() -> Path:
-    """Where the loop is, built on first use."""
-    folder = BUILD / "loop"
-    output("cmake", "-S", PLAYERS, "-B", folder)
+def loop_folder(prefix: Path | None = None) -> Path:
+    """Where the loop is, over Debian's engine or the one in a folder; built on first use."""
+    folder = BUILD / ("loop-optimised" if prefix else "loop")
+    output("cmake", "-S", PLAYERS, "-B", folder, *([f"-DCMAKE_PREFIX_PATH={prefix}"] if prefix else []))
     output("cmake", "--build", folder)
     return folder
 
@@ -30,6 +30,17 @@ def loop_player() -> Player:
     def play(question: str, scene: Scene) -> Figures:
         seconds, _wall = output(program, str(scene.steps), "3", *loop_arguments(scene)).split()
         return {"step": float(seconds)}
+
+    return play
+
+
+def parts_player(prefix: Path) -> Player:
+    """What is left of a step of an engine if its constraint solver, or all of that but the LCP, cost nothing."""
+    program = loop_folder(prefix) / "parts"
+
+    def play(question: str, scene: Scene) -> Figures:
+        step, solver, lcp = map(float, output(program, str(scene.steps), *loop_arguments(scene)).split())
+        return {"no solver": step - solver, "only LCP": step - solver + lcp}
 
     return play
 

@@ -1,25 +1,17 @@
-// A plain C++ loop over World::step(): the limit of what any binding can reach. A library, for a loop in the process that
-// it is compared with; loop_main.cpp is a program of its own.
+#include "loop.hpp"
 
 #include <dart/common/LocalResourceRetriever.hpp>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/Skeleton.hpp>
-#include <dart/simulation/World.hpp>
 #include <dart/utils/CompositeResourceRetriever.hpp>
 #include <dart/utils/SkelParser.hpp>
 #include <dart/utils/sdf/SdfParser.hpp>
 #include <dart/utils/urdf/DartLoader.hpp>
 #include <ctime>
+#include <memory>
 #include <string>
-#include <vector>
 
 using dart::dynamics::SkeletonPtr;
-
-struct Loop
-{
-  dart::simulation::WorldPtr world;
-  std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>> start; // positions and velocities of each skeleton
-};
 
 static SkeletonPtr load_robot(const std::string& path)
 {
@@ -38,9 +30,6 @@ static double cpu_seconds()
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-extern "C" {
-
-// WORLD|- ROBOT|- DT GRAVITY STIFFNESS DAMPING WARM [Q...]: loads the scene and takes WARM steps.
 Loop* loop_make(int count, const char* const* arguments)
 {
   const std::vector<std::string> args(arguments, arguments + count);
@@ -73,7 +62,6 @@ Loop* loop_make(int count, const char* const* arguments)
   return loop.release();
 }
 
-// Back to the state after the first steps.
 void loop_restart(Loop* loop)
 {
   for (std::size_t i = 0; i < loop->start.size(); ++i) {
@@ -82,7 +70,6 @@ void loop_restart(Loop* loop)
   }
 }
 
-// Seconds of this thread's CPU time.
 double loop_steps(Loop* loop, int count)
 {
   const double begin = cpu_seconds();
@@ -91,14 +78,7 @@ double loop_steps(Loop* loop, int count)
   return cpu_seconds() - begin;
 }
 
-// The first position of the last skeleton, to see that it is the same simulation.
 double loop_position(Loop* loop)
 {
   return loop->world->getSkeleton(loop->world->getNumSkeletons() - 1)->getPosition(0);
-}
-
-void loop_delete(Loop* loop)
-{
-  delete loop;
-}
 }
