@@ -212,6 +212,32 @@ void ConstraintMatrix::read_body(int body, int first_row, double* out)
   }
 }
 
+void ConstraintMatrix::apply(ConstrainedGroup& group, double time_step, Eigen::VectorXd& impulses) const
+{
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const auto& item = items_[i];
+    const auto constraint = group.getConstraint(i);
+    double* impulse = impulses.data() + item.begin;
+    if (item.by_engine || !engine::store_force(*constraint, impulse, time_step)) {
+      constraint->applyImpulse(impulse);
+      constraint->excite();
+      continue;
+    }
+    // A contact of the engine asks ten times whether its bodies can move.
+    const auto& rows = item.rows.bodies;
+    for (const int side : {0, 1}) {
+      if (item.bodies[side] == none)
+        continue;
+      auto& body = *rows.bodies[side];
+      Eigen::Vector6d sum = body.getConstraintImpulse();
+      for (int row = 0; row < item.end - item.begin; ++row)
+        sum += rows.directions[side].col(row) * impulse[row];
+      body.setConstraintImpulse(sum);
+      body.getSkeleton()->setImpulseApplied(true);
+    }
+  }
+}
+
 void ConstraintMatrix::fill_rows_by_engine(ConstrainedGroup& group, std::size_t index, Matrix& A) const
 {
   const auto& item = items_[index];

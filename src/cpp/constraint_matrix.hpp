@@ -29,6 +29,9 @@ public:
   /// Fills A, square and as large as the group that was read. `time_step` is the one of the contacts.
   void fill(dart::constraint::ConstrainedGroup& group, double time_step, Matrix& A);
 
+  /// Applies the impulses of all rows to the bodies, as each constraint would.
+  void apply(dart::constraint::ConstrainedGroup& group, double time_step, Eigen::VectorXd& impulses) const;
+
 private:
   using Skeleton = dart::dynamics::Skeleton;
 

@@ -49,6 +49,11 @@ struct ContactOf
   using type = const dart::collision::Contact& (ContactConstraint::*)() const;
   friend constexpr type member(ContactOf);
 };
+struct Tangents
+{
+  using type = Eigen::Matrix<double, 3, 2> (ContactConstraint::*)(const Eigen::Vector3d&);
+  friend constexpr type member(Tangents);
+};
 struct DynamicBody1 : Private<DynamicJointConstraint, BodyNode*> { friend constexpr type member(DynamicBody1); };
 struct DynamicBody2 : Private<DynamicJointConstraint, BodyNode*> { friend constexpr type member(DynamicBody2); };
 struct BallJacobian1 : Private<Ball, BallJacobian> { friend constexpr type member(BallJacobian1); };
@@ -69,6 +74,7 @@ template struct Reveal<ContactNormalB, &ContactConstraint::mSpatialNormalB>;
 template struct Reveal<PrimarySlip, &ContactConstraint::mPrimarySlipCompliance>;
 template struct Reveal<SecondarySlip, &ContactConstraint::mSecondarySlipCompliance>;
 template struct Reveal<ContactOf, &ContactConstraint::getContact>;
+template struct Reveal<Tangents, &ContactConstraint::getTangentBasisMatrixODE>;
 template struct Reveal<DynamicBody1, &DynamicJointConstraint::mBodyNode1>;
 template struct Reveal<DynamicBody2, &DynamicJointConstraint::mBodyNode2>;
 template struct Reveal<BallJacobian1, &Ball::mJacobian1>;
@@ -162,6 +168,21 @@ const dart::collision::Contact* contact(const ConstraintBase& constraint)
   if (typeid(constraint) != typeid(ContactConstraint))
     return nullptr;
   return &(static_cast<const ContactConstraint&>(constraint).*member(ContactOf()))();
+}
+
+bool store_force(ConstraintBase& constraint, const double* impulses, double time_step)
+{
+  const auto* found = contact(constraint);
+  if (found == nullptr)
+    return false;
+  auto& contact = const_cast<dart::collision::Contact&>(*found); // the engine's result, which its constraint refers to
+  contact.force = contact.normal * impulses[0] / time_step;
+  if (constraint.getDimension() == 1) // no friction
+    return true;
+  const auto tangents = (static_cast<ContactConstraint&>(constraint).*member(Tangents()))(contact.normal);
+  contact.force += tangents.col(0) * impulses[1] / time_step;
+  contact.force += tangents.col(1) * impulses[2] / time_step;
+  return true;
 }
 
 } // namespace pydart2::engine

@@ -7,7 +7,7 @@
 #include <dart/dynamics/GenericJoint.hpp>
 
 /// What the fast solver must know of the engine's objects and the engine keeps to itself: the rows of its constraints
-/// and the inverse projected inertia of its joints. Read only.
+/// and the inverse projected inertia of its joints. It changes nothing but the force of a contact.
 namespace pydart2::engine {
 
 /// Up to six rows of a constraint at one body: column i is the impulse on the body, a wrench in its frame, that goes
@@ -52,6 +52,10 @@ void read_rows(const dart::constraint::ConstraintBase& constraint, Rows& rows);
 
 /// The contact of a contact constraint between rigid bodies, null for other constraints.
 const dart::collision::Contact* contact(const dart::constraint::ConstraintBase& constraint);
+
+/// Stores the force that goes with the impulses of a contact constraint's rows in its contact, as its applyImpulse()
+/// does; false, and nothing, for other constraints.
+bool store_force(dart::constraint::ConstraintBase& constraint, const double* impulses, double time_step);
 
 /// (J' I J)^-1 of a joint, I the articulated inertia of its child body without implicit damping and springs. Valid once
 /// the articulated inertia is up to date (BodyNode::getArticulatedInertia). The member is protected: a derived class

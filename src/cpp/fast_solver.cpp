@@ -39,11 +39,11 @@ Solver default_solver()
   }
 }
 
-void install_solver(dart::simulation::World& world)
+void install_solver(dart::simulation::World& world, Solver solver)
 {
-  auto solver = std::make_unique<FastConstraintSolver>();
-  solver->set_solver(default_solver());
-  world.setConstraintSolver(std::move(solver));
+  auto installed = std::make_unique<FastConstraintSolver>();
+  installed->set_solver(solver);
+  world.setConstraintSolver(std::move(installed));
 }
 
 FastConstraintSolver& fast_solver(const dart::simulation::World& world)
@@ -91,11 +91,7 @@ void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
   mA.resize(size, dPAD(size));
   matrix_.fill(group, mTimeStep, mA);
   solve_lcp(group);
-  for (std::size_t i = 0; i < group.getNumConstraints(); ++i) {
-    const auto constraint = group.getConstraint(i);
-    constraint->applyImpulse(mX.data() + mOffset[static_cast<Eigen::Index>(i)]);
-    constraint->excite();
-  }
+  matrix_.apply(group, mTimeStep, mX);
 }
 
 /// DART finds the group of a joint's constraint by one look at a forest of skeletons that contacts have joined, so a

@@ -58,9 +58,9 @@ private:
   Eigen::VectorXd warm_x_;
 };
 
-/// Gives a world such a solver, set to default_solver(). Its collision detector, contacts, constraints and LCP solvers
-/// stay as they are, and so does the order of its contacts.
-void install_solver(dart::simulation::World& world);
+/// Gives a world such a solver. Its collision detector, contacts, constraints and LCP solvers stay as they are, and so
+/// does the order of its contacts.
+void install_solver(dart::simulation::World& world, Solver solver);
 
 /// The solver that install_solver() gave.
 FastConstraintSolver& fast_solver(const dart::simulation::World& world);
