@@ -5,25 +5,38 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 namespace pydart2 {
 
 namespace {
 
-constexpr int most_guesses = 12;
+constexpr int most_guesses = 12, longest_put_off = 63; // steps
 constexpr double rounding = 1e-13; // of the largest number; in some directions A is only a hundred thousandth
 
 } // namespace
 
 bool WarmLcp::solve(std::size_t group, const BoxedLcp& lcp, Eigen::VectorXd& x)
 {
-  const auto size = static_cast<std::size_t>(lcp.b.size());
   if (memories_.size() <= group)
     memories_.resize(group + 1);
   Memory& memory = memories_[group];
+  if (memory.put_off > 0) {
+    --memory.put_off;
+    return false;
+  }
+  const bool right = guess(lcp, memory, x);
+  memory.last_put_off = right ? 0 : std::min(2 * memory.last_put_off + 1, longest_put_off);
+  memory.put_off = memory.last_put_off;
+  return right;
+}
+
+bool WarmLcp::guess(const BoxedLcp& lcp, Memory& memory, Eigen::VectorXd& x)
+{
+  const auto size = static_cast<std::size_t>(lcp.b.size());
   if (memory.all.size() != size)
-    memory = {std::vector<Place>(size, Place::between), std::vector<Place>(size, Place::between)};
+    memory.normal = memory.all = std::vector<Place>(size, Place::between);
 
   std::vector<int> all(size), normal;
   std::iota(all.begin(), all.end(), 0);
@@ -48,7 +61,8 @@ std::vector<double> WarmLcp::memory() const
 {
   std::vector<double> numbers;
   for (const Memory& memory : memories_) {
-    numbers.push_back(static_cast<double>(memory.all.size()));
+    const double head[] = {double(memory.put_off), double(memory.last_put_off), double(memory.all.size())};
+    numbers.insert(numbers.end(), std::begin(head), std::end(head));
     for (const auto* places : {&memory.normal, &memory.all})
       for (const Place place : *places)
         numbers.push_back(static_cast<double>(place));
@@ -59,17 +73,25 @@ std::vector<double> WarmLcp::memory() const
 bool WarmLcp::remember(const std::vector<double>& memory)
 {
   std::vector<Memory> memories;
-  for (auto next = memory.begin(); next != memory.end();) {
-    const double size = *next++;
-    if (!(size >= 0.0 && 2.0 * size <= static_cast<double>(memory.end() - next) && size == std::floor(size)))
+  auto next = memory.begin();
+  const auto take = [&](double most, auto& value) { // a whole number from 0 to `most`
+    if (next == memory.end() || !(*next >= 0.0 && *next <= most && *next == std::floor(*next)))
       return false;
+    value = static_cast<std::remove_reference_t<decltype(value)>>(*next++);
+    return true;
+  };
+  while (next != memory.end()) {
     Memory& read = memories.emplace_back();
-    for (auto* places : {&read.normal, &read.all})
-      for (const auto end = next + static_cast<std::ptrdiff_t>(size); next != end; ++next) {
-        if (*next != 0.0 && *next != 1.0 && *next != 2.0)
+    std::size_t size = 0;
+    const auto most = static_cast<double>(memory.size());
+    if (!take(longest_put_off, read.put_off) || !take(longest_put_off, read.last_put_off) || !take(most, size))
+      return false;
+    for (auto* places : {&read.normal, &read.all}) {
+      places->resize(size);
+      for (auto& place : *places)
+        if (!take(double(Place::high), place))
           return false;
-        places->push_back(static_cast<Place>(*next));
-      }
+    }
   }
   memories_ = std::move(memories);
   return true;

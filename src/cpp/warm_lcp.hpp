@@ -20,16 +20,18 @@ struct BoxedLcp
 /// Solves it by guessing which rows are at which bound, first as in the step before, then, with all that is wrong put
 /// right at once, until nothing is wrong any more (block principal pivoting: Judice and Pires, Computers & Operations
 /// Research 21, 1994). A right guess costs one Cholesky factorisation. The solution is that of ODE's solver to rounding.
+/// Where the guesses do not become right, the next tries are put off for twice as many steps each time.
 class WarmLcp
 {
 public:
-  /// Solves the problem of a group of constraints; false if the guesses have not become right.
+  /// Solves the problem of a group of constraints; false if the guesses have not become right or are put off.
   bool solve(std::size_t group, const BoxedLcp& lcp, Eigen::VectorXd& x);
 
   /// Forgets the steps before.
   void forget() { memories_.clear(); }
 
-  /// What it remembers: of each group how many rows, then where they were without friction and with it.
+  /// What it remembers: of each group for how many steps it is put off, how many it was put off the last time, how many
+  /// rows there were, and where they were without friction and with it.
   std::vector<double> memory() const;
 
   /// Takes that back; false, and nothing changes, if these are other numbers.
@@ -38,12 +40,14 @@ public:
 private:
   enum class Place : char { between, low, high };
 
-  /// Where the rows were, without friction and with it.
+  /// Of one group.
   struct Memory
   {
-    std::vector<Place> normal, all;
+    int put_off = 0, last_put_off = 0; ///< Steps.
+    std::vector<Place> normal, all;    ///< Where the rows were, without friction and with it.
   };
 
+  bool guess(const BoxedLcp& lcp, Memory& memory, Eigen::VectorXd& x);
   bool pivot(
       const BoxedLcp& lcp, const Eigen::VectorXd& lo, const Eigen::VectorXd& hi, const std::vector<int>& rows,
       std::vector<Place>& places, Eigen::VectorXd& x);
