@@ -24,8 +24,8 @@ def main() -> None:
     print("## Reading and writing\n\nfullbody1, 37 dofs; the last column compares with the better of the others.\n")
     print(table(["call", OURS, DEBIAN, PYPI, "ratio", "bar"], rows))
     print(
-        "\n`contacts` are points and forces as one array (`collision_result.rows`). In `contact_objects` each field\n"
-        "is a slice and a copy of its own by NumPy, 0.2 µs, and that sets the limit."
+        "\n`contacts` are points and forces as one array (`collision_result.rows`), `contact_objects` two arrays for\n"
+        "each contact."
     )
 
 

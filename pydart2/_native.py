@@ -3,6 +3,7 @@
 from pydart2.pydart2_api import (
     BatchHandle,
     BodyNodeHandle,
+    ContactRow,
     DofHandle,
     JointHandle,
     MarkerHandle,
@@ -24,6 +25,7 @@ from pydart2.pydart2_api import (
 __all__ = [
     "BatchHandle",
     "BodyNodeHandle",
+    "ContactRow",
     "DofHandle",
     "JointHandle",
     "MarkerHandle",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,12 +22,15 @@ class _Contacts:
     def __init__(self, world: World, rows: NDArray[np.float64]) -> None:
         self.world = world
         self.rows = rows
+        self._contacts: list[Contact] | None = None
 
-    @cached_property
+    @property
     def contacts(self) -> list[Contact]:
-        return [Contact(self.world, row) for row in self.rows]
+        if self._contacts is None:
+            self._contacts = Contact.from_rows(self.world, self.rows)
+        return self._contacts
 
-    @cached_property
+    @property
     def bodies(self) -> list[BodyNode]:
         bodies = (body for c in self.contacts for body in (c.bodynode1, c.bodynode2) if body is not None)
         return list(dict.fromkeys(bodies))

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "contact_row.hpp"
 #include "errors.hpp"
 #include "messages.hpp"
 #include "named_vector.hpp"

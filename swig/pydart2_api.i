@@ -12,6 +12,7 @@
   pydart2::make_assertions_throw();
   pydart2::messages::install();
   PyModule_AddObject(m, "NamedVector", pydart2::named_vector::make_type());
+  PyModule_AddObject(m, "ContactRow", pydart2::contact_row::make_type());
 %}
 
 %include "exceptions.i"
@@ -32,7 +33,7 @@
 %include "batch.i"
 
 %pythoncode %{
-from ._pydart2_api import NamedVector
+from ._pydart2_api import ContactRow, NamedVector
 
 # The flat functions are made of the handle classes, when the first is wanted. (__path__ is asked for at import.)
 def __getattr__(name):

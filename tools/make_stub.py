@@ -36,12 +36,13 @@ FLAT = {"verbose=True": "verbose: bool = True", "tuple of int": "tuple[int, ...]
 
 HEAD = '''"""The C++ layer: one handle per engine object. Made by tools/make_stub.py."""
 
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.indexing import Names
+from pydart2.world import World
 
 Vector = TypeVar("Vector", bound=NDArray[np.float64])
 
@@ -49,6 +50,25 @@ class NamedVector(np.ndarray[tuple[int], np.dtype[np.float64]]):
     _names: Names | None
     def __getitem__(self, key: Any) -> Any: ...
     def __setitem__(self, key: Any, value: Any) -> None: ...
+
+class ContactRow:
+    world: World
+    state: NDArray[np.float64]
+    point: NDArray[np.float64]
+    p: NDArray[np.float64]
+    force: NDArray[np.float64]
+    f: NDArray[np.float64]
+    skel_id1: int
+    bodynode_id1: int
+    skel_id2: int
+    bodynode_id2: int
+    shape_id1: int
+    shape_id2: int
+    normal: NDArray[np.float64]
+    depth: float
+    def __init__(self, _world: World, _state: ArrayLike) -> None: ...
+    @classmethod
+    def from_rows(cls, world: World, rows: ArrayLike) -> list[Self]: ...
 
 class IntVector(list[int]): ...
 

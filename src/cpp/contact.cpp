@@ -45,9 +45,13 @@ std::size_t num_contacts(const WorldRecord& world)
 
 void write_contacts(const WorldRecord& world, double* out)
 {
+  const dart::collision::CollisionObject *object1 = nullptr, *object2 = nullptr; // contacts of a pair follow each other
+  Side a, b;
   for (const auto& contact : world.world->getLastCollisionResult().getContacts()) {
-    const Side a = side(world, *contact.collisionObject1);
-    const Side b = side(world, *contact.collisionObject2);
+    if (contact.collisionObject1 != object1)
+      a = side(world, *(object1 = contact.collisionObject1));
+    if (contact.collisionObject2 != object2)
+      b = side(world, *(object2 = contact.collisionObject2));
     const auto& p = contact.point;
     const auto& f = contact.force;
     const auto& n = contact.normal;

@@ -187,23 +187,22 @@ void SkeletonHandle::commands(Output& like) const
   each_dof(like, [](const DegreeOfFreedom& dof) { return dof.getCommand(); });
 }
 
-void SkeletonHandle::by_joint(
-    const Eigen::VectorXd& values, void (Joint::*set_one)(std::size_t, double), void (Joint::*set_all)(const Eigen::VectorXd&))
+void SkeletonHandle::set_positions(const VectorIn& positions)
 {
+  // Joint by joint; a method of dart::dynamics::Skeleton would make every dof a change of its own.
+  const auto& values = per_dof(positions, "positions");
   for (std::size_t i = 0; i < dofs_.size();) {
     auto& joint = *dofs_[i]->getJoint();
     const auto size = joint.getNumDofs();
     if (size == 1)
-      (joint.*set_one)(0, values[static_cast<long>(i)]);
-    else
-      (joint.*set_all)(values.segment(static_cast<long>(i), static_cast<long>(size)));
+      joint.setPosition(0, values[static_cast<long>(i)]);
+    else {
+      auto& of_joint = joint_scratch_[size];
+      of_joint = values.segment(static_cast<long>(i), static_cast<long>(size));
+      joint.setPositions(of_joint);
+    }
     i += size;
   }
-}
-
-void SkeletonHandle::set_positions(const VectorIn& positions)
-{
-  by_joint(per_dof(positions, "positions"), &Joint::setPosition, &Joint::setPositions);
 }
 
 void SkeletonHandle::set_velocities(const VectorIn& velocities)
@@ -218,7 +217,9 @@ void SkeletonHandle::set_accelerations(const VectorIn& accelerations)
 
 void SkeletonHandle::set_forces(const VectorIn& forces)
 {
-  by_joint(per_dof(forces, "forces"), &Joint::setForce, &Joint::setForces);
+  const auto& values = per_dof(forces, "forces");
+  for (std::size_t i = 0; i < dofs_.size(); ++i)
+    dofs_[i]->setForce(values[static_cast<long>(i)]);
 }
 
 void SkeletonHandle::set_commands(const VectorIn& commands)

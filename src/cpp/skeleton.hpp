@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -109,11 +110,6 @@ private:
   /// Checks the vector and copies it to where DART takes it from without an allocation.
   const Eigen::VectorXd& per_dof(const VectorIn& values, const char* what);
 
-  /// Sets them joint by joint; a method of dart::dynamics::Skeleton would make every dof a change of its own.
-  void by_joint(
-      const Eigen::VectorXd& values, void (dart::dynamics::Joint::*set_one)(std::size_t, double),
-      void (dart::dynamics::Joint::*set_all)(const Eigen::VectorXd&));
-
   Part<dart::dynamics::Skeleton, dart::dynamics::Skeleton*> skeleton_; // SkeletonRecord owns it
   std::vector<dart::dynamics::DegreeOfFreedom*> dofs_;
   DofState state_;
@@ -121,6 +117,7 @@ private:
   MassMatrix mass_matrix_;
   BiasForces bias_forces_;
   Eigen::VectorXd scratch_;
+  std::array<Eigen::VectorXd, 7> joint_scratch_; // by the number of dofs
 };
 
 } // namespace pydart2

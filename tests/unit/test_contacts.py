@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import copy
+import gc
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -114,6 +117,45 @@ def test_update_after_reset(world: pydart2.World) -> None:
 def test_no_body_without_a_skeleton(world: pydart2.World) -> None:
     contact = pydart2.Contact(world, np.array([0.0] * 6 + [-1, -1, 99, 0]))
     assert contact.bodynode1 is None and contact.bodynode2 is None
+
+
+def test_a_contact_has_what_its_row_has(world: pydart2.World) -> None:
+    row = np.arange(16.0)
+    contact = pydart2.Contact(world, row)
+    ids = (contact.skel_id1, contact.bodynode_id1, contact.skel_id2, contact.bodynode_id2)
+    assert (*ids, contact.shape_id1, contact.shape_id2) == (6, 7, 8, 9, 10, 11)
+    np.testing.assert_array_equal(np.hstack([contact.state, contact.normal, contact.depth]), np.delete(row, [10, 11]))
+    contact.point[:] = 99.0
+    np.testing.assert_array_equal(contact.point, row[:3])
+
+
+def test_a_documented_row_has_no_shapes(world: pydart2.World) -> None:
+    contact = pydart2.Contact(world, np.arange(10.0))
+    assert (contact.shape_id1, contact.shape_id2) == (-1, -1)
+    assert np.isnan(contact.depth) and np.isnan(contact.normal).all()
+
+
+def test_a_contact_is_copied_by_value(world: pydart2.World) -> None:
+    contact = pydart2.Contact(world, np.arange(16.0))
+    again = copy.copy(contact)
+    assert again.world is world and (again.state == contact.state).all() and again.depth == 15.0
+
+
+@pytest.mark.parametrize("numbers", [[], [0.0] * 9, np.zeros((2, 9)), "contact", [object()] * 10])
+def test_what_is_no_contact_is_refused(world: pydart2.World, numbers: object) -> None:
+    with pytest.raises((TypeError, ValueError)):
+        pydart2.Contact(world, numbers)  # type: ignore[arg-type]
+    with pytest.raises((TypeError, ValueError)):
+        pydart2.Contact.from_rows(world, numbers)  # type: ignore[arg-type]
+
+
+def test_a_contact_and_its_world_are_collected_together() -> None:
+    other = pydart2.World(0.001)
+    other.kept = pydart2.Contact(other, np.zeros(10))  # type: ignore[attr-defined]
+    gone = weakref.ref(other)
+    del other
+    gc.collect()
+    assert gone() is None
 
 
 def test_contacts_after_a_skeleton_was_removed(world: pydart2.World) -> None:
