@@ -33,8 +33,8 @@ MODELS = {  # and the time step of the examples, s
     "softBodies": ("skel/softBodies.skel", 1.0 / 1000.0),
     "atlas": ("sdf/atlas/atlas_v3_no_head.sdf", 1.0 / 1000.0),
 }
-# Times that a robot may blow up, which the window says before it goes on. Sliders pose it at random, also where two
-# axes of an Euler joint coincide and its velocities have no bound.
+# Times that a robot may blow up, which the window says before it goes on: sliders pose it at random, in the middle of
+# a swing, also where two axes of an Euler joint coincide and its velocities have no bound.
 MOST_BLOWN_UP = 10
 NOT_TRIGGERED = ("open", "close")  # a dialog that waits for a person; the end
 MAX_GROWTH = 20.0  # MB of memory in the second half of the events
