@@ -48,11 +48,12 @@ def warm_world(solver: str = "dart") -> pydart2.World:
     return world
 
 
-def processes() -> float:
-    """Steps per second that two C++ processes reach together; each does half of the batch's steps."""
-    command = [str(loop_folder() / "loop"), str(STEPS), str(WORLDS // THREADS), *loop_arguments(SCENE)]
-    running = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(THREADS)]
-    return sum(1.0 / float(process.communicate()[0].split()[1]) for process in running)
+def loops(processes: int, threads: int) -> float:
+    """Steps per second that C++ processes with so many threads each reach together, in as many steps as the batch."""
+    repeats = WORLDS // (processes * threads)
+    command = [str(loop_folder() / "loop"), str(STEPS), str(repeats), str(threads), *loop_arguments(SCENE)]
+    running = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(processes)]
+    return sum(threads / float(process.communicate()[0].split()[1]) for process in running)
 
 
 def batch(pool: pydart2.Batch) -> float:
@@ -83,10 +84,13 @@ def main() -> None:
     pool = pydart2.Batch(model, WORLDS, threads=THREADS)
     fast = pydart2.Batch(warm_world("fast"), WORLDS, threads=THREADS)
     worlds = [warm_world() for _ in range(THREADS)]
-    to_processes, fast_to_processes, to_one, threaded = [], [], [], []
+    to_processes, fast_to_processes, to_one, threaded, limit, to_limit = [], [], [], [], [], []
     for _ in range(ROUNDS):
-        both = processes()
-        to_processes.append(batch(pool) / both)
+        both, one = loops(THREADS, 1), loops(1, THREADS)
+        limit.append(one / both)
+        ours = batch(pool)
+        to_processes.append(ours / both)
+        to_limit.append(ours / one)
         fast_to_processes.append(batch(fast) / both)
         threaded.append(
             float(output(sys.executable, "-c", ONE_WORLD, PYTHONPATH=str(FOLDER), OPENBLAS_NUM_THREADS="1"))
@@ -97,9 +101,10 @@ def main() -> None:
     bars = met(ratio, 0.95, at_least=True), met(two, 1.6, at_least=True)
     print(f"Batch of {WORLDS} on {THREADS} threads to {THREADS} C++ processes: {ratio}; {bars[0]}.\n")
     print(
-        "What sets the limit: in a process that has, or has had, a second thread the C++ library counts the references "
-        f"to the engine's objects with locked instructions. One world then does {Ratio(threaded)} of the steps per "
-        "second.\n"
+        f"What sets the limit: a C++ program with {THREADS} threads reaches {Ratio(limit)} of {THREADS} processes, the "
+        f"batch {Ratio(to_limit)} of that program. In a process that has, or has had, a second thread the C++ library "
+        "counts the references to the engine's objects with locked instructions; one world alone then does "
+        f"{Ratio(threaded)} of the steps per second.\n"
     )
     print(f"With the fast constraint solver, to the same C++ processes: {Ratio(fast_to_processes)}.\n")
     print(f"Two Python threads with two worlds to one: {two}; {bars[1]}.")

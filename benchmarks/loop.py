@@ -28,7 +28,7 @@ def loop_player() -> Player:
     program = loop_folder() / "loop"
 
     def play(question: str, scene: Scene) -> Figures:
-        seconds, _wall = output(program, str(scene.steps), "3", *loop_arguments(scene)).split()
+        seconds, _wall = output(program, str(scene.steps), "3", "1", *loop_arguments(scene)).split()
         return {"step": float(seconds)}
 
     return play

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 #include <dart/common/Console.hpp>
-#include <dart/constraint/BoxedLcpSolver.hpp>
+#include <dart/constraint/DantzigBoxedLcpSolver.hpp>
 #include <dart/external/odelcpsolver/common.h>
 #include <set>
 
@@ -163,9 +163,11 @@ void FastConstraintSolver::solve_lcp(ConstrainedGroup& group)
     mHiBackup = mHi;
     mFIndexBackup = mFIndex;
   }
-  const auto size = static_cast<int>(mX.size());
-  const bool solved = mBoxedLcpSolver->solve(
-      size, mA.data(), mX.data(), mB.data(), 0, mLo.data(), mHi.data(), mFIndex.data(), has_second);
+  const bool ours = has_second && dynamic_cast<dart::constraint::DantzigBoxedLcpSolver*>(mBoxedLcpSolver.get()) != nullptr;
+  const bool solved = ours ? dantzig_lcp_.solve(mA, mX, mB, mLo, mHi, mFIndex)
+                           : mBoxedLcpSolver->solve(
+                                 static_cast<int>(mX.size()), mA.data(), mX.data(), mB.data(), 0, mLo.data(), mHi.data(),
+                                 mFIndex.data(), has_second);
   if (has_second && (!solved || mX.hasNaN()))
     solve_lcp_again(group);
   if (mX.hasNaN()) {

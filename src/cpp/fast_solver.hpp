@@ -5,6 +5,7 @@
 #include <string>
 
 #include "constraint_matrix.hpp"
+#include "dantzig_lcp.hpp"
 #include "warm_lcp.hpp"
 
 namespace pydart2 {
@@ -54,6 +55,7 @@ private:
   bool warm_start_ = false;
   bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
   ConstraintMatrix matrix_;
+  DantzigLcp dantzig_lcp_;
   WarmLcp warm_lcp_;
   Eigen::VectorXd warm_x_;
 };

@@ -1,4 +1,4 @@
-"""The program of ``check.cpp``: built with CMake at its first use, asked for some scenes of one model."""
+"""The programs of ``check.cpp`` and ``lcp.cpp``, built with CMake at their first use."""
 
 from __future__ import annotations
 
@@ -37,12 +37,22 @@ def models(*suffixes: str) -> list[Path]:
 
 
 def check(model: Path, steps: int, scenes: list[tuple[str, str]]) -> list[Scene]:
-    """Compare the solvers in scenes, given as (detector, variation)."""
+    """Compare the solvers in scenes of a model, given as (detector, variation)."""
     arguments = [word for scene in scenes for word in scene]
     done = subprocess.run(
-        [_build(), str(steps), str(model), *arguments], capture_output=True, text=True, check=True, errors="replace"
+        [_build() / "check", str(steps), str(model), *arguments],
+        capture_output=True,
+        text=True,
+        check=True,
+        errors="replace",
     )
     return [_read(line) for line in done.stdout.splitlines()]
+
+
+def compare_lcp(count: int) -> dict[str, int]:
+    """How many random complementarity problems had which outcome, as ``lcp.cpp`` describes it."""
+    words = subprocess.run([_build() / "lcp", str(count)], capture_output=True, text=True, check=True).stdout.split()
+    return dict(zip(words[::2], map(int, words[1::2])))
 
 
 def _read(line: str) -> Scene:
@@ -58,4 +68,4 @@ def _build() -> Path:
         for command in (["cmake", "-S", str(SOURCE), "-B", str(BUILD)], ["cmake", "--build", str(BUILD), "-j2"]):
             done = subprocess.run(command, capture_output=True, text=True)
             assert done.returncode == 0, f"{' '.join(command)} failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}"
-    return BUILD / "check"
+    return BUILD

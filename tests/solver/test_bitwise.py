@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from .program import DETECTORS, VARIATIONS, Scene, check, models
+from .program import DETECTORS, VARIATIONS, Scene, check, compare_lcp, models
 
 Scenes = list[tuple[str, str]]
 
@@ -59,6 +59,14 @@ def test_bodies_at_rest_on_each_other() -> None:
     outcomes = compare(files, 200, [scenes] * len(files))
     assert {scene.result for scene in outcomes} == {"equal"}
     assert min(scene.contacts for scene in outcomes if scene.variation == "pile") > 1_000
+
+
+def test_complementarity_problems() -> None:
+    """Random ones, also those that the engine's solver gives up."""
+    outcomes = compare_lcp(10_000)
+    assert outcomes["different"] == 0
+    assert outcomes["equal"] > 9_500
+    assert outcomes["given-up"] > 10
 
 
 @pytest.mark.solver
