@@ -66,8 +66,8 @@ bool DantzigLcp::solve(
       at_upper_[row] = true;
       ++num_bound_;
     } else if (w_[row] == 0.0) {
-      find_column(row);
-      clamp(row);
+      find_column(row, 0, driven_);
+      clamp(row, driven_);
     } else if (!drive(row))
       return false;
   }
@@ -88,7 +88,8 @@ void DantzigLcp::begin(Matrix& A)
     A_[row] = A.row(row).data();
     original_[row] = row;
   }
-  for (auto* numbers : {&w_, &dx_, &dw_, &inverse_D_, &column_, &scaled_column_, &sums_, &first_, &second_})
+  for (auto* numbers : {&w_, &dx_, &dw_, &inverse_D_, &sums_, &first_, &second_, &driven_.values, &driven_.scaled,
+                        &other_.values, &other_.scaled})
     numbers->resize(size);
   at_upper_.resize(size);
   clamped_.resize(size);
@@ -143,9 +144,9 @@ void DantzigLcp::bound_friction(int from)
 /// Drives x of a row until it is at a bound or its w is zero; rows before it change sides where they must.
 bool DantzigLcp::drive(int row)
 {
-  for (;;) {
+  for (int known = 0;;) {
     const double direction = w_[row] <= 0.0 ? 1.0 : -1.0;
-    find_column(row);
+    find_column(row, known, driven_);
     find_direction(-direction);
     find_response(row, direction);
     const auto step = longest_step(row, direction);
@@ -163,7 +164,7 @@ bool DantzigLcp::drive(int row)
     switch (step.end) {
       case End::solved:
         w_[row] = 0.0;
-        clamp(row);
+        clamp(row, driven_);
         return true;
       case End::at_lower:
       case End::at_upper:
@@ -173,15 +174,16 @@ bool DantzigLcp::drive(int row)
         return true;
       case End::clamp:
         w_[other] = 0.0;
-        find_column(other);
-        clamp(other);
+        known = num_clamped_;
+        find_column(other, 0, other_);
+        clamp(other, other_);
         --num_bound_;
         break;
       case End::release_at_lower:
       case End::release_at_upper:
         at_upper_[other] = step.end == End::release_at_upper;
         x_[other] = at_upper_[other] ? hi_[other] : lo_[other];
-        release(other);
+        known = release(other);
         break;
     }
   }
@@ -211,40 +213,44 @@ DantzigLcp::Step DantzigLcp::longest_step(int row, double direction) const
   return step;
 }
 
-/// To the clamped rows; find_column() has seen it.
-void DantzigLcp::clamp(int row)
+/// To the clamped rows.
+void DantzigLcp::clamp(int row, const Column& column)
 {
-  factor(row);
+  factor(row, column);
   swap_rows(num_clamped_, row);
   clamped_[num_clamped_] = num_clamped_;
   ++num_clamped_;
 }
 
-/// From the clamped rows to those at a bound.
-void DantzigLcp::release(int row)
+/// From the clamped rows to those at a bound. How many rows of the factors stay as they are.
+int DantzigLcp::release(int row)
 {
   const auto end = clamped_.begin() + num_clamped_;
   const auto place = std::find(clamped_.begin(), end, row);
-  remove_factor(static_cast<int>(place - clamped_.begin()));
+  const auto index = static_cast<int>(place - clamped_.begin());
+  remove_factor(index);
   *std::find(clamped_.begin(), end, num_clamped_ - 1) = row;
   std::move(place + 1, end, place);
   --num_clamped_;
   ++num_bound_;
   swap_rows(row, num_clamped_);
+  return index;
 }
 
-/// column = L^-1 a with the row's elements a at the clamped rows, and scaled_column = D^-1 column. In blocks of four
-/// rows, whose own part comes after the sum over the rows above.
-void DantzigLcp::find_column(int row)
+/// The column of a row, of which so many elements are known already. In blocks of four, in which what is above the block
+/// is summed up first; only whole blocks can be known.
+void DantzigLcp::find_column(int row, int known, Column& column)
 {
-  const int n = num_clamped_, blocks_end = n / 4 * 4;
+  const int n = num_clamped_, begin = known / 4 * 4, blocks_end = n / 4 * 4;
   const double* a = A_[row];
-  double* x = column_.data();
+  double* x = column.values.data();
   double* sums = sums_.data();
-  std::fill(sums, sums + n, 0.0);
-  for (int i = 0; i < n; ++i)
+  for (int i = begin; i < n; ++i) {
     x[i] = a[clamped_[i]];
-  int i = 0;
+    sums[i] = 0.0;
+  }
+  add_columns(&L(begin, 0), stride_, x, begin, sums + begin, n - begin);
+  int i = begin;
   for (; i < blocks_end; i += 4) {
     x[i] = x[i] - sums[i];
     x[i + 1] = x[i + 1] - sums[i + 1] - L(i + 1, i) * x[i];
@@ -257,16 +263,16 @@ void DantzigLcp::find_column(int row)
     add_columns(&L(i + 1, i), stride_, x + i, 1, sums + i + 1, n - i - 1);
   }
   for (i = 0; i < n; ++i)
-    scaled_column_[i] = x[i] * inverse_D_[i];
+    column.scaled[i] = x[i] * inverse_D_[i];
 }
 
-/// dx = sign L'^-1 scaled_column: how the clamped rows answer to the one that find_column() has seen. From the last row
-/// up, in blocks of four.
+/// dx of the clamped rows, L'^-1 D^-1 L^-1 a with a sign: how they answer to the driven one. From the last row up, in
+/// blocks of four.
 void DantzigLcp::find_direction(double sign)
 {
   const int n = num_clamped_;
   double* x = first_.data();
-  std::copy(scaled_column_.begin(), scaled_column_.begin() + n, x);
+  std::copy(driven_.scaled.begin(), driven_.scaled.begin() + n, x);
   int i = n - 1;
   for (; i >= 3; i -= 4) {
     const double *c0 = &L(0, i), *c1 = c0 - stride_, *c2 = c1 - stride_, *c3 = c2 - stride_;
@@ -320,14 +326,14 @@ void DantzigLcp::find_response(int row, double direction)
   dw_[row] = dot(A_[row], x, n) + A_[row][row] * direction;
 }
 
-/// A row more of the factors, of the row that find_column() has seen.
-void DantzigLcp::factor(int row)
+/// A row more of the factors.
+void DantzigLcp::factor(int row, const Column& column)
 {
   const int n = num_clamped_;
   for (int i = 0; i < n; ++i)
-    L(n, i) = scaled_column_[i];
+    L(n, i) = column.scaled[i];
   const double diagonal = A_[row][row];
-  inverse_D_[n] = 1.0 / (n > 0 ? diagonal - dot(scaled_column_.data(), column_.data(), n) : diagonal);
+  inverse_D_[n] = 1.0 / (n > 0 ? diagonal - dot(column.scaled.data(), column.values.data(), n) : diagonal);
 }
 
 /// A row less of the factors. Setting its row and column of the matrix to those of the identity is a symmetric change of
@@ -340,8 +346,8 @@ void DantzigLcp::remove_factor(int index)
   double* change = sums_.data();
   std::fill(change, change + size, 0.0);
   for (int i = 0; i < index; ++i)
-    column_[i] = L(index, i) / inverse_D_[i];
-  add_columns(&L(index, 0), stride_, column_.data(), index, change, size);
+    second_[i] = L(index, i) / inverse_D_[i];
+  add_columns(&L(index, 0), stride_, second_.data(), index, change, size);
   const int row = clamped_[index];
   for (int i = 0; i < size; ++i)
     change[i] = change[i] - A(clamped_[index + i], row);

@@ -33,19 +33,25 @@ private:
     int row;
   };
 
+  /// Of a row with the elements a at the clamped rows: L^-1 a, and D^-1 L^-1 a.
+  struct Column
+  {
+    std::vector<double> values, scaled;
+  };
+
   void begin(Matrix& A);
   void put_free_rows_first();
   void put_friction_last();
   void bound_friction(int from);
   bool drive(int row);
   Step longest_step(int row, double direction) const;
-  void clamp(int row);
-  void release(int row);
+  void clamp(int row, const Column& column);
+  int release(int row);
 
-  void find_column(int row);
+  void find_column(int row, int known, Column& column);
   void find_direction(double sign);
   void find_response(int row, double direction);
-  void factor(int row);
+  void factor(int row, const Column& column);
   void remove_factor(int index);
   void update_factors(int first);
   void swap_rows(int row1, int row2);
@@ -64,8 +70,9 @@ private:
 
   // Factors of the clamped rows in the order in which they came; L without its diagonal, D inverted.
   std::ptrdiff_t stride_ = 0;
-  std::vector<double> L_, inverse_D_, column_, scaled_column_, sums_, first_, second_;
+  std::vector<double> L_, inverse_D_, sums_, first_, second_;
   std::vector<int> clamped_; ///< Rows of the factors.
+  Column driven_, other_;
 };
 
 } // namespace pydart2
