@@ -24,7 +24,7 @@ def main() -> None:
         players[OPTIMISED] = python_player(sys.executable, "ours.py", PYDART2_SOLVER="fast", PYTHONPATH=path)
         players["parts"] = parts_player(PREFIX)
         shown[OPTIMISED] = "recording off"
-        limits = {"of the solver only the LCP": "only LCP", "without the solver": "no solver"}
+        limits = {"of the solver only our LCP": "only LCP", "without the solver": "no solver"}
     else:
         print("The optimised engine is not built (`make engine`).\n")
     rows: list[list[object]] = []
@@ -48,7 +48,7 @@ def main() -> None:
     if limits:
         print(
             "\nThe last columns set the limit: what the optimised engine's own C++ loop would reach if nothing of its\n"
-            "constraint solver cost time but the LCP, and if the LCP cost nothing either. What remains is forward\n"
+            "constraint solver cost time but our LCP, and if that cost nothing either. What remains is forward\n"
             "dynamics, collision detection, and the making of the constraints."
         )
 

@@ -1,13 +1,15 @@
-// parts STEPS SCENE... (as for loop_make): prints the seconds of CPU time of a step with DART's own constraint solver, those of them
-// in the solver (from the constraint matrix to the impulses), and those of them in the LCP.
+// parts STEPS SCENE... (as for loop_make): prints the seconds of CPU time of a step with DART's own constraint solver,
+// those of them in the solver (from the constraint matrix to the impulses), and those of them in the LCP, which is ours.
 
 #include <chrono>
 #include <dart/constraint/BoxedLcpConstraintSolver.hpp>
 #include <dart/constraint/DantzigBoxedLcpSolver.hpp>
+#include <dart/external/odelcpsolver/common.h>
 #include <iostream>
 #include <memory>
 #include <string>
 
+#include "dantzig_lcp.hpp"
 #include "loop.hpp"
 
 using dart::constraint::BoxedLcpConstraintSolver;
@@ -25,13 +27,21 @@ public:
   double seconds = 0.0;
 
   bool solve(
-      int n, double* A, double* x, double* b, int nub, double* lo, double* hi, int* findex, bool early) override
+      int n, double* A, double* x, double* b, int, double* lo, double* hi, int* findex, bool) override
   {
+    using Vector = Eigen::Map<Eigen::VectorXd>;
+    pydart2::DantzigLcp::Matrix matrix = Eigen::Map<pydart2::DantzigLcp::Matrix>(A, n, dPAD(n));
+    Eigen::VectorXd solution(n), right = Vector(b, n), lower = Vector(lo, n), upper = Vector(hi, n);
+    Eigen::VectorXi friction = Eigen::Map<Eigen::VectorXi>(findex, n);
     const auto begin = Clock::now();
-    const bool solved = DantzigBoxedLcpSolver::solve(n, A, x, b, nub, lo, hi, findex, early);
+    const bool solved = lcp_.solve(matrix, solution, right, lower, upper, friction);
     seconds += since(begin);
+    Vector(x, n) = solution;
     return solved;
   }
+
+private:
+  pydart2::DantzigLcp lcp_;
 };
 
 class TimedSolver final : public BoxedLcpConstraintSolver

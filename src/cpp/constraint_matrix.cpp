@@ -136,7 +136,8 @@ void ConstraintMatrix::gather_readings()
 void ConstraintMatrix::fill(ConstrainedGroup& group, double time_step, Matrix& A)
 {
   gather_readings();
-  A.setZero();
+  for (const auto& item : items_)
+    A.block(item.begin, item.begin, item.end - item.begin, A.cols() - item.begin).setZero();
   for (std::size_t i = 0; i < items_.size(); ++i)
     if (items_[i].by_engine)
       fill_rows_by_engine(group, i, A);
