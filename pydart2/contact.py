@@ -23,16 +23,20 @@ class Contact(ContactRow):
     Attributes
     ----------
     world : World
-    point, p : (3,)
-        Where the bodies touch, m.
-    force, f : (3,)
-        On the first body, N.
+    point : (3,)
+        Where the bodies touch, m; also called `p`.
+    force : (3,)
+        On the first body, N; also called `f`.
     normal : (3,)
         Unit normal, from the second body to the first; NaN if not given.
     depth : float
         Penetration depth, m; NaN if not given.
-    skel_id1, bodynode_id1, shape_id1, skel_id2, bodynode_id2, shape_id2 : int
-        Ids of the skeleton, the body and its shape node, of the first body and of the second.
+    skel_id1 : int
+        Id of the first body's skeleton; `skel_id2` of the second one's.
+    bodynode_id1 : int
+        Id of the first body; `bodynode_id2` of the second.
+    shape_id1 : int
+        Id of the first body's shape node; `shape_id2` of the second one's.
     state : (10,)
         Point, force and the ids of skeletons and bodies.
     """
