@@ -266,8 +266,10 @@ def test_sliders_pose_the_robot(make_window: MakeWindow, atlas: pydart2.Skeleton
     row = next(row for row in sliders.rows if row.dof.name == "l_leg_kny")
     low, high = row.dof.position_lower_limit(), row.dof.position_upper_limit()
     sliders.ensureWidgetVisible(row.slider)
+    atlas.dq = np.ones(atlas.ndofs)
     row.slider.setValue(row.slider.maximum())
     assert row.dof.position() == pytest.approx(high)
+    assert not atlas.dq.any()  # from rest
     row.box.setValue(low)
     assert row.dof.position() == pytest.approx(low, abs=1e-3)
     row.dof.set_position(0.5)

@@ -130,10 +130,10 @@ class Commands:
         picture.update()
 
     def pose(self, dof: Dof, position: float) -> None:
-        """Move a dof."""
+        """Move a dof; the skeleton starts from rest, as a jump in the middle of a swing can blow it up."""
         with self.runtime.guarded():
             dof.set_position(position)
-            dof.set_velocity(0.0)
+            dof.skeleton.dq = np.zeros(dof.skeleton.ndofs)
         self.window.glwidget.update()
 
     def dismiss_error(self) -> None:
