@@ -26,7 +26,7 @@ def control() -> CameraControl:
     return CameraControl(Trackball(rot=[0.535, 0.284, 0.376, 0.701], trans=[0.10, 0.02, -2.770]))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.tuples(numbers, numbers, numbers), st.tuples(st.floats(1, 639), st.floats(1, 479)), st.floats(0.1, 20.0))
 def test_a_point_of_a_ray_is_projected_back_to_its_pixel(
     pivot: tuple[float, ...], pixel: tuple[float, ...], depth: float

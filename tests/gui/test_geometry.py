@@ -56,7 +56,7 @@ def test_open_and_inside_out_meshes_are_not_closed() -> None:
     assert not geometry.mesh([], []).is_closed
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.integers(2, 8), st.integers(2, 8), st.integers(0, 1000))
 def test_heightmap(rows: int, columns: int, seed: int) -> None:
     heights = np.random.default_rng(seed).normal(size=(rows, columns))

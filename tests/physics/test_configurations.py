@@ -16,7 +16,7 @@ import pydart2
 from .models import arm, body, creature, free_body, joint, make_world, skeleton
 
 Vector = NDArray[np.float64]
-few = settings(max_examples=25, deadline=None, derandomize=True)
+few = settings(max_examples=25)
 
 
 def vectors(size: int) -> st.SearchStrategy[Vector]:

@@ -24,7 +24,7 @@ STEP = 1e-5
 vectors = st.lists(st.floats(-1.2, 1.2), min_size=NDOFS, max_size=NDOFS).map(np.array)
 bodies = st.sampled_from(["pelvis", "thigh", "head", "foot", "hand", "tail"])
 points = st.lists(st.floats(-1, 1), min_size=3, max_size=3).map(np.array)
-few = settings(max_examples=15, deadline=None, derandomize=True)
+few = settings(max_examples=15)
 
 
 @pytest.fixture(scope="module")

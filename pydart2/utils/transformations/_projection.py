@@ -103,7 +103,7 @@ def projection_from_matrix(
     normal = -m[3, :3]
     perspective = depth * normal - m[:3, :3] @ normal - (normal if pseudo else 0.0)
     point = (m[3, 3] - depth) * normal
-    if depth == 0.0:
+    if (perspective - point) @ normal == 0.0:
         raise ValueError(f"not a projection matrix:\n{m}")
     check(m, projection_matrix(point, normal, None, perspective, pseudo), "projection")
     return homogeneous(point), normal, None, perspective, pseudo
