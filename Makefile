@@ -25,8 +25,10 @@ demo: setup
 	@echo "a clip of the standing biped:   build/demo/biped_stand.webp"
 	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then echo "in a window:                    $(VENV)/bin/python examples/biped_stand.py"; fi
 
+# If the process ends in the middle of a test, C++ has the last word: it is shown after all else, without pytest's frames.
 test: setup lint
-	$(VENV)/bin/python -m pytest
+	$(VENV)/bin/python -m pytest --capture=sys 2>build/test.err || { status=$$?; \
+	  grep -v -e '^Extension modules' -e '/_pytest/' -e '/pluggy/' build/test.err | tail -50 >&2; exit $$status; }
 
 docs: setup
 	$(VENV)/bin/pip install --quiet -e '.[docs]' --no-build-isolation
