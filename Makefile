@@ -27,6 +27,7 @@ demo: setup
 
 # If the process ends in the middle of a test, C++ has the last word: it is shown after all else, without pytest's frames.
 test: setup lint
+	@mkdir -p build
 	$(VENV)/bin/python -m pytest --capture=sys 2>build/test.err || { status=$$?; \
 	  grep -v -e '^Extension modules' -e '/_pytest/' -e '/pluggy/' build/test.err | tail -50 >&2; exit $$status; }
 
