@@ -2,4 +2,5 @@
 #include "batch.hpp"
 %}
 
+%ignore pydart2::BatchHandle::claim;
 %include "batch.hpp"

@@ -132,7 +132,7 @@ def classes(header: str) -> list[str]:
         r"class (\w+Handle|ModelSource)\n\{\npublic:\n(.*?)\n(?:private:|\};)", text, re.DOTALL
     ):
         methods = [stub for line in body.splitlines() if (stub := method(line))]
-        shown = [m for m in methods if "::" not in m and "Ref" not in m and "ShapeHandle, node: " not in m]
+        shown = [m for m in methods if not re.search("::|Ref|Busy|ShapeHandle, node: ", m)]
         shown = [m for m in shown if "__init__" not in m or name in ("WorldHandle", "BatchHandle", "ModelSource")]
         stubs.append(f"class {name}:\n" + "\n".join(shown) + "\n")
     return stubs

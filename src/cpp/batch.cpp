@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <dart/constraint/ConstraintSolver.hpp>
-#include <deque>
 
 #include "checks.hpp"
 #include "errors.hpp"
@@ -43,15 +42,20 @@ void BatchHandle::add(const WorldHandle& world)
   errors_.emplace_back();
 }
 
-/// Runs work(world, index) for the worlds that have not failed. What is thrown becomes the world's error.
-template <class Work>
-void BatchHandle::each_world(Work work)
+std::deque<Busy> BatchHandle::claim() const
 {
   std::deque<Busy> claims; // all or none
   for (const auto& world : worlds_) {
     check_detector(*world, num_threads_);
     claims.emplace_back(*world);
   }
+  return claims;
+}
+
+/// Runs work(world, index) for the worlds that have not failed. What is thrown becomes the world's error.
+template <class Work>
+void BatchHandle::each_world(Work work)
+{
   parallel_for(worlds_.size(), num_threads_, [&](std::size_t i) {
     if (!errors_[i].empty())
       return;
@@ -78,13 +82,15 @@ void BatchHandle::rollout(long skeleton, const MatrixIn& actions, long hold, con
   check::finite(VectorIn{actions.data, actions.rows * actions.cols}, "actions");
   if (worlds_.empty())
     return;
-  const auto num_dofs = static_cast<long>(this->skeleton(0, skeleton).dofs().size()), size = num_states();
+  const auto& skeletons = worlds_.front()->skeletons;
+  const auto chosen = check::index(skeleton, skeletons.size(), "skeleton");
+  const auto num_dofs = static_cast<long>(skeletons[chosen]->dofs().size()), size = num_states();
   const long times = size == 0 ? 0 : trajectories.cols / size;
   check::shape(actions, worlds_.size(), static_cast<std::size_t>(times * num_dofs), "actions");
   check::shape({trajectories.data, trajectories.rows, trajectories.cols}, worlds_.size(),
                static_cast<std::size_t>(times * size), "trajectories");
   each_world([&](WorldRecord& world, std::size_t i) {
-    auto& skel = *world.skeletons[static_cast<std::size_t>(skeleton)]->skeleton;
+    auto& skel = *world.skeletons[chosen]->skeleton;
     const double* action = actions.data + static_cast<long>(i) * actions.cols;
     double* row = trajectories.data + static_cast<long>(i) * trajectories.cols;
     for (long t = 0; t < times; ++t, action += num_dofs, row += size) {

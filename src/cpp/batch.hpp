@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ public:
   void add(const WorldHandle& world);
   int num_worlds() const { return static_cast<int>(worlds_.size()); }
   int num_threads() const { return static_cast<int>(num_threads_); }
+
+  /// All its worlds, for step() and rollout(), whose caller holds the claims.
+  std::deque<Busy> claim() const;
 
   void step(long count);
 

@@ -112,7 +112,6 @@ SkeletonHandle WorldHandle::skeleton(long index) const
 
 int WorldHandle::add_skeleton(const ModelSource& source)
 {
-  Busy busy(*record_);
   record_->add(load_skeleton(source), source.packed());
   return static_cast<int>(record_->skeletons.size()) - 1;
 }
@@ -199,7 +198,6 @@ void WorldHandle::step(long count)
 {
   if (count < 0)
     throw Error(Kind::value, "the number of steps must be zero or positive, got " + std::to_string(count));
-  Busy busy(*record_);
   for (long i = 0; i < count; ++i) {
     advance(*record_);
     if (record_->recording.enabled())
@@ -209,7 +207,6 @@ void WorldHandle::step(long count)
 
 void WorldHandle::check_collision()
 {
-  Busy busy(*record_);
   pydart2::check_collision(*record_);
 }
 

@@ -117,6 +117,9 @@ public:
   long recording_limit() const;
   void set_recording_limit(long bytes);
 
+  /// For add_skeleton(), step(), check_collision() and clone(), whose caller holds it. Refuses a world in use.
+  Busy claim() const { return Busy(*record_); }
+
   /// For the C++ of this layer.
   const WorldRef& ref() const { return record_; }
 

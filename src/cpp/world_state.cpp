@@ -58,7 +58,6 @@ void WorldHandle::model_numbers(Output& out) const
 
 WorldHandle WorldHandle::clone() const
 {
-  Busy busy(*record_);
   return WorldHandle(build(blueprint(*record_)));
 }
 
