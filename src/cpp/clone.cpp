@@ -47,6 +47,7 @@ std::vector<std::string> plan_of(const WorldRecord& world)
 /// Takes away what came with the world and is not in the plan.
 void remove_others(WorldRecord& world, const std::vector<std::string>& plan)
 {
+  const auto lock = lock_ode();
   for (auto item = world.skeletons.begin(); item != world.skeletons.end();) {
     bool wanted = false;
     for (std::size_t i = 1; i < plan.size(); i += texts_per_skeleton)

@@ -136,6 +136,7 @@ void WorldHandle::remove_skeleton(long index)
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), has_skeleton), pairs.end());
     apply_ignored_pairs(record);
   }
+  const auto lock = lock_ode();
   solver.clearLastCollisionResult(); // it points to collision objects that go
   record.world->removeSkeleton(skeleton);
   record.removals += ++record.skeletons[i]->structure; // parts of a skeleton without a world are refused
@@ -234,6 +235,7 @@ void WorldHandle::set_collision_detector(const std::string& name)
   auto& record = world();
   if (name == "fcl" && has_cones(*record.world))
     throw Error(Kind::value, "FCL of this engine puts cones in random places: keep another detector, such as bullet");
+  const auto lock = lock_ode();
   auto& solver = *record.world->getConstraintSolver();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
   solver.setCollisionDetector(make_detector(name)); // not use_detector(): its contacts have another order than the engine's
