@@ -255,3 +255,15 @@ def test_same_world_twice_is_the_same_run() -> None:
         world.step(300)
         runs.append(world.x)
     np.testing.assert_array_equal(*runs)
+
+
+@pytest.mark.parametrize("detector", range(4))
+def test_nothing_rests_on_a_removed_ground(detector: int) -> None:
+    """Also where the world's detector was chosen, and where something still holds the ground."""
+    world = pydart2.World(0.001, pydart2.data_path("skel/cubes.skel"))
+    world.set_collision_detector(detector)
+    ground = world.skeletons[0]
+    world.remove_skeleton(ground)
+    bottom = world.skeletons[0].C[1]
+    world.step(400)
+    assert bottom - world.skeletons[0].C[1] > 0.7  # g t² / 2 = 0.785 m
