@@ -12,6 +12,7 @@ export PYTHON VENV
 
 FUZZ_MODELS ?= 5000
 FUZZ_CALLS ?= 1000000
+FUZZ_SECONDS ?= 300
 
 .PHONY: demo test docs test-packaging test-third-party test-viewer test-solver fuzz soak sanitize coverage bench wheel \
   engine lint setup clean
@@ -73,6 +74,7 @@ test-third-party: setup
 fuzz: setup
 	$(VENV)/bin/python tests/crash/fuzz_models.py $(FUZZ_MODELS)
 	$(VENV)/bin/python tests/crash/fuzz_api.py $(FUZZ_CALLS)
+	$(VENV)/bin/python tests/crash/fuzz_threads.py $(FUZZ_SECONDS)
 
 bench: setup
 	$(VENV)/bin/python benchmarks/run_all.py

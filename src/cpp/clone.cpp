@@ -94,6 +94,7 @@ WorldRef build(const Blueprint& blueprint)
   if (plan.size() % texts_per_skeleton != 1)
     Archive::refuse();
   const auto world = Manager::instance().add(with_ode([&] { return world_from(plan[0]); }), plan[0]);
+  const Busy claim(*world); // another thread's init() would clear it
   follow_plan(*world, plan);
   Archive model(blueprint.texts, blueprint.numbers);
   visit_model(model, *world);

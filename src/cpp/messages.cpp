@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iostream>
+#include <iterator>
 #include <mutex>
 #include <streambuf>
 #include <string_view>
@@ -125,6 +126,12 @@ public:
     return std::exchange(done_, {});
   }
 
+  void give(std::vector<Message> messages)
+  {
+    finish();
+    std::move(messages.begin(), messages.end(), std::back_inserter(done_));
+  }
+
 private:
   /// A line that begins as messages do ends the one before; any other goes on with it.
   void add_line(Level level, const std::string& raw)
@@ -209,6 +216,12 @@ std::vector<Message> take()
   flags.waiting = false;
   inbox().finish();
   return inbox().take();
+}
+
+void give(std::vector<Message> messages)
+{
+  flags.waiting |= !messages.empty();
+  inbox().give(std::move(messages));
 }
 
 std::string problems()

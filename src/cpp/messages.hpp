@@ -49,6 +49,9 @@ inline bool any()
 /// there, then the 100th, the 1000th, ..., which say so.
 std::vector<Message> take();
 
+/// Adds to this thread's messages those that another thread took while it worked for this one.
+void give(std::vector<Message> messages);
+
 /// The warnings and errors since the last take(), one after another, repeats too: the reason why a parser gave up.
 std::string problems();
 

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <exception>
+#include <functional>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "messages.hpp"
 
 namespace pydart2 {
 
@@ -22,10 +26,16 @@ void parallel_for(std::size_t count, std::size_t num_threads, const std::functio
       }
     }
   };
+  std::deque<std::vector<messages::Message>> said;
+  const auto help = [&take_turns](std::vector<messages::Message>& said_here) {
+    const messages::Listening listening;
+    take_turns();
+    said_here = messages::take();
+  };
   std::vector<std::thread> others;
   while (others.size() + 1 < std::min(num_threads, count)) {
     try {
-      others.emplace_back(take_turns);
+      others.emplace_back(help, std::ref(said.emplace_back()));
     } catch (const std::system_error&) {
       break; // no more threads to be had: those that there are do it
     }
@@ -33,6 +43,8 @@ void parallel_for(std::size_t count, std::size_t num_threads, const std::functio
   take_turns();
   for (auto& thread : others)
     thread.join();
+  for (auto& messages : said)
+    messages::give(std::move(messages));
   for (const auto& exception : thrown)
     if (exception)
       std::rethrow_exception(exception);

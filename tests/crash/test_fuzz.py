@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from crash import fuzz_api, fuzz_models
+from crash import fuzz_api, fuzz_models, fuzz_threads
 
 
 def test_damaged_models() -> None:
@@ -24,3 +24,9 @@ def test_hostile_calls() -> None:
     report = fuzz_api.run(4000, first=0)
     assert report.troubles == [] and report.calls >= 4000
     assert report.accepted > 200 and report.refused > 200
+
+
+def test_threads() -> None:
+    calls, troubles = fuzz_threads.run(10, first=0)
+    assert troubles == []
+    assert len(calls) == 21, "each kind of call works now and then, and some are refused"

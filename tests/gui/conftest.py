@@ -1,8 +1,9 @@
-"""A renderer, and windows: on Qt's platform `offscreen` unless QT_QPA_PLATFORM says another."""
+"""A renderer, an X server, and windows: on Qt's `offscreen` unless QT_QPA_PLATFORM says another platform."""
 
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -23,6 +24,22 @@ def renderer() -> Iterator[OffscreenRenderer]:
     made = OffscreenRenderer(240, 180)
     yield made
     made.close()
+
+
+@pytest.fixture(scope="session")
+def display() -> Iterator[str]:
+    """The name of an X server's display, as in DISPLAY. The server chooses a free one and says when it answers.
+
+    One for all tests: under xvfb-run, which waits for none of its servers to end, a server that ends can take
+    the display of the next one with it.
+    """
+    command = ["Xvfb", "-displayfd", "1", "-screen", "0", "1680x1050x24", "-noreset", "-nolisten", "tcp"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
+        assert server.stdout
+        number = server.stdout.readline().strip()
+        assert number, "Xvfb does not start"
+        yield f":{number}"
+        server.terminate()
 
 
 @pytest.fixture

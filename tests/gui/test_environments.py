@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
 import textwrap
@@ -12,7 +11,6 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-XVFB = ["xvfb-run", "-a", "-s", "-screen 0 1680x1050x24"]
 
 
 def run(*command: str, seconds: float = 120.0, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -26,18 +24,14 @@ def run(*command: str, seconds: float = 120.0, **environment: str) -> subprocess
     return subprocess.run(command, capture_output=True, text=True, env=inherited, cwd=ROOT, timeout=seconds)
 
 
-def run_code(code: str, *before: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    return run(*before, sys.executable, "-c", textwrap.dedent(code), **environment)
+def run_code(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    return run(sys.executable, "-c", textwrap.dedent(code), **environment)
 
 
-def test_xvfb_is_there() -> None:
-    assert shutil.which("xvfb-run"), "apt-get install xvfb (tools/setup.sh does)"
-
-
-def test_the_window_tests_pass_under_an_x_server() -> None:
+def test_the_window_tests_pass_under_an_x_server(display: str) -> None:
     tests = [f"tests/gui/test_{name}.py" for name in ("window", "glut")]
-    pytest_here = (*XVFB, sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider")
-    result = run(*pytest_here, *tests, QT_QPA_PLATFORM="xcb", seconds=900.0)
+    pytest_here = (sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider")
+    result = run(*pytest_here, *tests, DISPLAY=display, QT_QPA_PLATFORM="xcb", seconds=900.0)
     assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-1000:]
     assert "skipped" not in result.stdout
 
@@ -61,9 +55,9 @@ LAUNCH = """
 
 
 @pytest.mark.parametrize(("platform", "widget"), [("offscreen", "ImageWidget"), ("xcb", "GLWidget")])
-def test_launch_blocks_until_closed_and_returns_the_window(platform: str, widget: str) -> None:
-    before = XVFB if platform == "xcb" else []
-    result = run_code(LAUNCH, *before, QT_QPA_PLATFORM=platform, PYDART2_VIEWER_SECONDS="1")
+def test_launch_blocks_until_closed_and_returns_the_window(platform: str, widget: str, display: str) -> None:
+    environment = {"DISPLAY": display} if platform == "xcb" else {}
+    result = run_code(LAUNCH, QT_QPA_PLATFORM=platform, PYDART2_VIEWER_SECONDS="1", **environment)
     assert result.returncode == 0, result.stderr
     lines = result.stdout.splitlines()[-2:]
     assert lines == ["closed after True", f"PyQt5Window Cubes {widget} 1"]
@@ -136,7 +130,7 @@ def test_ctrl_c_closes_the_window() -> None:
     assert (result.returncode, result.stdout.splitlines()[-1]) == (0, "closed True"), result.stderr
 
 
-def test_high_resolution_screens_give_pictures_of_all_their_pixels() -> None:
+def test_high_resolution_screens_give_pictures_of_all_their_pixels(display: str) -> None:
     code = """
         import pydart2 as pydart
         from PyQt5.QtCore import QTimer
@@ -150,8 +144,8 @@ def test_high_resolution_screens_give_pictures_of_all_their_pixels() -> None:
         headless = pydart.gui.render(window.sim, width, height, camera=window.scene.tb)
         print(width == 2 * picture.width(), height == 2 * picture.height(), (shown == headless).all())
     """
-    for platform, before in (("offscreen", []), ("xcb", XVFB)):
-        result = run_code(code, *before, QT_QPA_PLATFORM=platform, QT_SCALE_FACTOR="2")
+    for environment in ({"QT_QPA_PLATFORM": "offscreen"}, {"QT_QPA_PLATFORM": "xcb", "DISPLAY": display}):
+        result = run_code(code, QT_SCALE_FACTOR="2", **environment)
         assert result.returncode == 0, result.stderr
         assert result.stdout.splitlines()[-1] == "True True True"
 
@@ -211,6 +205,6 @@ SCRIPTS = {
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
-def test_scripts_run_as_they_are_in_ci(script: str) -> None:
-    result = run_code(SCRIPTS[script], *XVFB, PYDART2_VIEWER_SECONDS="0.7")
+def test_scripts_run_as_they_are_in_ci(script: str, display: str) -> None:
+    result = run_code(SCRIPTS[script], DISPLAY=display, PYDART2_VIEWER_SECONDS="0.7")
     assert result.returncode == 0, result.stderr

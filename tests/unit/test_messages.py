@@ -98,6 +98,16 @@ def test_a_step_that_prints(caplog: Any, capfd: Any) -> None:
     assert max(kinds.values()) == 12  # the first ten, the 100th, the 1000th
 
 
+def test_the_threads_of_a_batch_that_print(caplog: Any, capfd: Any) -> None:
+    space: dict[str, Any] = {"pydart2": pydart2}
+    exec(SOFT, space)
+    batch = pydart2.Batch(space["world"], 4, threads=4)
+    caplog.clear()
+    batch.step(20)
+    assert capfd.readouterr() == ("", "")
+    assert any("[DARTCollisionDetector" in record.getMessage() for record in engine_records(caplog))
+
+
 def test_an_error_keeps_its_messages(caplog: Any) -> None:
     with pytest.raises(pydart2.LoadError):
         World(0.001, "<robot name='r'><link name='a'/><link name='b'/></robot>", safe=False)

@@ -1,0 +1,176 @@
+"""Threads make, share, change and drop worlds at once: a call works or raises what the documentation promises.
+
+    python tests/crash/fuzz_threads.py 300 [FIRST]    for 300 seconds
+
+Half of the calls are to worlds that all threads use, half to the thread's own. Every process of ten seconds has
+another seed; the threads' turns are as they come, so a seed repeats the calls and not the run.
+"""
+
+from __future__ import annotations
+
+import gc
+import logging
+import pickle
+import random
+import subprocess
+import sys
+import threading
+import time
+import warnings
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parents[1]))
+
+import pydart2
+from crash.fuzz_api import DOCUMENTED, ENVIRONMENT, VALUES, do, members, things_of
+
+THREADS = 4
+SECONDS_PER_PROCESS = 10.0
+MODELS = ("cubes", "cubes", "cubes", "chain", "chain", "shapes", "fullbody1", "softBodies")
+
+
+class Hands:
+    """One thread: its worlds, and what it keeps of worlds that may be gone."""
+
+    def __init__(self, seed: int, shared: list[pydart2.World]) -> None:
+        self.random = random.Random(seed)
+        self.shared, self.own = shared, [self.new_world()]
+        self.kept: list[Any] = []
+        self.calls: Counter[str] = Counter()
+        self.troubles: list[str] = []
+
+    def new_world(self) -> pydart2.World:
+        return pydart2.World(0.001, f"skel/{self.random.choice(MODELS)}.skel")
+
+    def replace(self, world: pydart2.World) -> None:
+        """Another world takes the place of one of the own or shared worlds, which is dropped."""
+        worlds = self.random.choice([self.own, self.shared])
+        worlds[self.random.randrange(len(worlds))] = world
+
+    def remove_skeleton(self, world: pydart2.World) -> None:
+        self.keep(world)
+        world.remove_skeleton(self.random.choice(world.skeletons))
+
+    def keep(self, world: pydart2.World) -> None:
+        """Handles that outlive their world are used later."""
+        self.kept.append(self.random.choice(things_of(world)))
+        del self.kept[:-5]
+
+    def use_kept(self, world: pydart2.World) -> None:
+        self.hostile_call(self.random.choice(self.kept or [world]))
+
+    def hostile_call(self, thing: Any) -> None:
+        kind, name = self.random.choice(members(thing))
+        do(thing, kind, name, self.random.choices(VALUES, k=self.random.randrange(4)))
+
+    def batch(self, world: pydart2.World) -> None:
+        pydart2.Batch(world, 3, threads=2).step(3)
+
+    def snapshot(self, world: pydart2.World) -> None:
+        snapshot = world.snapshot(exact=self.random.random() < 0.5)
+        world.step(3)
+        world.restore(snapshot)
+
+    def deeds(self) -> dict[str, Callable[[pydart2.World], Any]]:
+        draw = self.random.randrange
+        return {
+            "step": lambda world: world.step(draw(8)),
+            "step again": lambda world: world.step(draw(8)),
+            "check_collision": lambda world: world.check_collision(),
+            "detector": lambda world: world.set_collision_detector(draw(4)),
+            "solver": lambda world: world.set_constraint_solver(self.random.choice(["dart", "fast"])),
+            "add": lambda world: world.add_skeleton("skel/ground.skel"),
+            "remove": self.remove_skeleton,
+            "weld": lambda world: self.random.choice(world.skeletons).set_root_joint_to_weld(),
+            "keep": self.keep,
+            "use kept": self.use_kept,
+            "hostile call": lambda world: self.hostile_call(self.random.choice(things_of(world))),
+            "snapshot": self.snapshot,
+            "clone": lambda world: self.replace(world.clone()),
+            "pickle": lambda world: self.replace(pickle.loads(pickle.dumps(world))),
+            "batch": self.batch,
+            "reset": lambda world: world.reset(),
+            "new": lambda world: self.replace(self.new_world()),
+            "destroy": lambda world: world.destroy() if draw(4) == 0 else None,
+            "init": lambda world: pydart2.init(verbose=False) if draw(20) == 0 else None,
+            "collect": lambda world: gc.collect() if draw(5) == 0 else None,
+        }
+
+    def work(self, end: float) -> None:
+        deeds = self.deeds()
+        destroyed = False
+        while time.monotonic() < end:
+            name = "new" if destroyed else self.random.choice(list(deeds))
+            destroyed = False
+            world = self.random.choice(self.random.choice([self.own, self.shared]))
+            try:
+                deeds[name](world)
+                self.calls[name] += 1
+            except DOCUMENTED as error:
+                destroyed = isinstance(error, pydart2.DestroyedError)
+                self.calls["refused"] += 1
+            except Exception as error:
+                self.troubles.append(f"{name}: {error!r:.300}")
+
+
+def work(seed: int) -> None:
+    """Let the threads of this process at it; prints the number of calls of each kind, and troubles."""
+    logging.disable(logging.CRITICAL)
+    warnings.simplefilter("ignore")
+    shared = [pydart2.World(0.001, f"skel/{name}.skel") for name in MODELS[:2]]
+    hands = [Hands(seed * THREADS + number, shared) for number in range(THREADS)]
+    end = time.monotonic() + SECONDS_PER_PROCESS
+    threads = [threading.Thread(target=hand.work, args=(end,)) for hand in hands]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    healthy = pydart2.World(0.001, "skel/cubes.skel")
+    healthy.step(2)
+    assert healthy.frame == 2
+    for hand in hands:
+        for name, count in hand.calls.items():
+            print(count, name)
+        for trouble in hand.troubles:
+            print("TROUBLE", trouble.replace("\n", " "))
+
+
+def run(seconds: float, first: int) -> tuple[Counter[str], list[str]]:
+    """How often each kind of call was accepted, or any refused, in processes of ten seconds; and what went wrong."""
+    calls: Counter[str] = Counter()
+    troubles: list[str] = []
+    for seed in range(first, first + max(1, round(seconds / SECONDS_PER_PROCESS))):
+        command = [sys.executable, "-X", "faulthandler", __file__, "--work", str(seed)]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT, timeout=120)
+        except subprocess.TimeoutExpired:
+            troubles.append(f"seed {seed}: it hangs")
+            continue
+        for line in done.stdout.splitlines():
+            word, _, rest = line.partition(" ")
+            if word == "TROUBLE":
+                troubles.append(f"seed {seed}: {rest}")
+            else:
+                calls[rest] += int(word)
+        if done.returncode != 0:
+            troubles.append(f"seed {seed}, code {done.returncode}:\n{done.stderr[-3000:]}")
+    return calls, troubles
+
+
+def main() -> None:
+    """Run as long as asked for; exit code 1 if there was trouble."""
+    calls, troubles = run(float(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0)
+    print(f"{calls.total()} calls of {THREADS} threads, {calls['refused']} refused, {len(troubles)} troubles")
+    print(*troubles, sep="\n")
+    sys.exit(bool(troubles))
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "--work":
+        work(int(sys.argv[2]))
+    else:
+        main()
