@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from harness import DEBIAN, OURS, PYPI, Ratio, competitors, met, microseconds, rounds, table
+from harness import DEBIAN, OURS, PYPI, Ratio, competitors, met, microseconds, table, turns
 from scenes import standing_human
 
 
 def main() -> None:
     """Steps per second as ratios to Debian's dartpy."""
-    found = rounds(competitors(), "control", standing_human())
+    found = turns(competitors(), "control", standing_human())
     rows: list[list[object]] = []
     for name in found[0][OURS]:
         times = [microseconds([r[player][name] for r in found]) for player in (OURS, DEBIAN, PYPI)]

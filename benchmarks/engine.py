@@ -5,7 +5,21 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from harness import BUILD, DEBIAN, OURS, PLAYERS, ROOT, Ratio, competitors, met, output, python_player, rounds, table
+from harness import (
+    BUILD,
+    DEBIAN,
+    OURS,
+    PLAYERS,
+    ROOT,
+    PythonPlayer,
+    Ratio,
+    competitors,
+    met,
+    output,
+    rounds,
+    table,
+    turns,
+)
 from scenes import scenes, standing_human
 
 PREFIX = ROOT / "build" / "engine" / "prefix"
@@ -28,7 +42,7 @@ def main() -> None:
         return
     path = {"PYTHONPATH": str(package())}
     players = {name: play for name, play in competitors().items() if name in (OURS, DEBIAN)}
-    players[OPTIMISED] = python_player(sys.executable, "ours.py", **path)
+    players[OPTIMISED] = PythonPlayer(sys.executable, "ours.py", path)
     rows: list[list[object]] = []
     for name in ("cubes", "chain", "fullbody1", "Atlas"):
         scene = scenes()[name]
@@ -38,7 +52,7 @@ def main() -> None:
         rows.append([name, ratio, met(ratio, 1.25, at_least=True), "yes" if states[0] == states[1] else "**no**"])
     print("Steps per second, with Debian's engine as 1; whether the states are bitwise equal after 1,000 steps.\n")
     print(table(["scene", OPTIMISED, "bar", "same states"], rows))
-    found = rounds(players, "control", standing_human())
+    found = turns(players, "control", standing_human())
     ratio = Ratio([r[DEBIAN]["stable PD"] / r[OPTIMISED]["stable PD"] for r in found])
     bar = met(ratio, 1.9, at_least=True)
     print(f"\nStable PD loop on fullbody1, steps per second to Debian's dartpy: {ratio}; {bar}.")

@@ -8,8 +8,8 @@ import statistics
 import subprocess
 import sys
 import venv
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from scenes import Scene
@@ -19,9 +19,10 @@ PLAYERS = ROOT / "benchmarks" / "players"
 BUILD = ROOT / "build" / "bench"
 ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(ROOT)}
 ROUNDS = int(os.environ.get("BENCH_ROUNDS", "7"))
+TURNS = 5 * ROUNDS
 
 Figures = dict[str, float]
-Player = Callable[[str, Scene], Figures]
+Player = Callable[[str, Scene], Figures]  # answers a question
 OURS, DEBIAN, PYPI, LOOP = "pydart2", "dartpy 6.12 (Debian)", "dartpy (PyPI)", "C++ loop"
 
 
@@ -34,15 +35,57 @@ def output(*command: str | Path, **environment: str) -> str:
     return done.stdout
 
 
-def python_player(python: str | Path, program: str, **environment: str) -> Player:
+class Talk:
+    """A competitor that has loaded a scene, and is asked for one figure after the other."""
+
+    def __init__(self, command: list[str], environment: dict[str, str]) -> None:
+        self._process = subprocess.Popen(
+            command,
+            env=environment,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        self.names: list[str] = json.loads(self._line())
+
+    def ask(self, name: str) -> float:
+        """Seconds, once more."""
+        assert self._process.stdin
+        print(name, file=self._process.stdin, flush=True)
+        return float(self._line())
+
+    def end(self) -> None:
+        """No more questions."""
+        self._process.communicate()
+
+    def _line(self) -> str:
+        assert self._process.stdout
+        while line := self._process.stdout.readline():
+            if line.startswith("answer "):
+                return line.partition(" ")[2]
+        sys.exit(f"{self._process.args} failed")
+
+
+@dataclass(frozen=True)
+class PythonPlayer:
     """A competitor in Python."""
 
-    def play(question: str, scene: Scene) -> Figures:
-        answer = output(python, PLAYERS / program, question, scene.dump(), **environment)
+    python: str | Path
+    program: str
+    environment: dict[str, str] = field(default_factory=dict)
+
+    def __call__(self, question: str, scene: Scene) -> Figures:
+        answer = output(*self._command(question, scene), **self.environment)
         figures: Figures = json.loads(answer.splitlines()[-1])
         return figures
 
-    return play
+    def talk(self, question: str, scene: Scene) -> Talk:
+        """A process that answers again and again."""
+        return Talk(self._command(question, scene), {**ENVIRONMENT, **self.environment})
+
+    def _command(self, question: str, scene: Scene) -> list[str]:
+        return [str(self.python), str(PLAYERS / self.program), question, scene.dump()]
 
 
 def pypi_dartpy() -> Path:
@@ -56,18 +99,33 @@ def pypi_dartpy() -> Path:
     return python
 
 
-def competitors() -> dict[str, Player]:
+def competitors() -> dict[str, PythonPlayer]:
     """The bindings, by name."""
     return {
-        OURS: python_player(sys.executable, "ours.py"),
-        DEBIAN: python_player("/usr/bin/python3", "dartpy_player.py"),
-        PYPI: python_player(pypi_dartpy(), "dartpy_player.py"),
+        OURS: PythonPlayer(sys.executable, "ours.py"),
+        DEBIAN: PythonPlayer("/usr/bin/python3", "dartpy_player.py"),
+        PYPI: PythonPlayer(pypi_dartpy(), "dartpy_player.py"),
     }
 
 
-def rounds(players: dict[str, Player], question: str, scene: Scene) -> list[dict[str, Figures]]:
-    """The figures of each player in each round; the players take turns."""
+def rounds(players: Mapping[str, Player], question: str, scene: Scene) -> list[dict[str, Figures]]:
+    """The figures of each player in each round; the players take turns, in a process of their own each time."""
     return [{name: play(question, scene) for name, play in players.items()} for _ in range(ROUNDS)]
+
+
+def turns(players: Mapping[str, PythonPlayer], question: str, scene: Scene) -> list[dict[str, Figures]]:
+    """The same, in processes that live as long as all rounds, with a turn for every figure: what is compared is
+    measured within a fraction of a second."""
+    talks = {name: player.talk(question, scene) for name, player in players.items()}
+    found: list[dict[str, Figures]] = []
+    for _ in range(TURNS):
+        found.append({player: {} for player in talks})
+        for name in talks[OURS].names:
+            for player, talk in talks.items():
+                found[-1][player][name] = talk.ask(name)
+    for talk in talks.values():
+        talk.end()
+    return found
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import statistics
 import sys
 
 from engine import OPTIMISED, PREFIX, package
-from harness import OURS, PYPI, Ratio, competitors, met, python_player, rounds, table
+from harness import OURS, PYPI, Player, PythonPlayer, Ratio, competitors, met, rounds, table
 from loop import parts_player
 from scenes import atlas_with_meshes, scenes
 
@@ -16,12 +16,12 @@ BARS = {"cubes": 1.0, "chain": 1.0, "fullbody1": 1.0, "Atlas": 3.0, "Atlas with 
 def main() -> None:
     """Ratios of steps per second, with PyPI's dartpy as 1."""
     print("## The fast constraint solver and the newer engine\n")
-    players = {PYPI: competitors()[PYPI], OURS: python_player(sys.executable, "ours.py", PYDART2_SOLVER="fast")}
+    fast = {"PYDART2_SOLVER": "fast"}
+    players: dict[str, Player] = {PYPI: competitors()[PYPI], OURS: PythonPlayer(sys.executable, "ours.py", fast)}
     shown = {OURS: "recording off"}
     limits = {}
     if (PREFIX / ".version").exists():
-        path = str(package())
-        players[OPTIMISED] = python_player(sys.executable, "ours.py", PYDART2_SOLVER="fast", PYTHONPATH=path)
+        players[OPTIMISED] = PythonPlayer(sys.executable, "ours.py", {**fast, "PYTHONPATH": str(package())})
         players["parts"] = parts_player(PREFIX)
         shown[OPTIMISED] = "recording off"
         limits = {"of the solver only our LCP": "only LCP", "without the solver": "no solver"}

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 
 
-def per_call(call: Callable[[], object], seconds: float = 0.02, repeats: int = 5) -> float:
+def per_call(call: Callable[[], object], seconds: float = 0.002, repeats: int = 5) -> float:
     """Seconds of one call, the least of several repeats."""
     call()
     count, taken = 1, 0.0

@@ -1,4 +1,4 @@
-"""The questions, asked of any binding: `play(binding)` answers the one on the command line as JSON.
+"""The questions, asked of any binding: `play(binding)` answers the one on the command line, all at once or one by one.
 
 A binding has ``load(scene)``, which returns an object with the calls that are measured: world-wide ``step``,
 ``states``, ``set_states``, ``contacts`` (points and forces, as numbers or in ``contact_objects``); of the last skeleton
@@ -10,10 +10,14 @@ from __future__ import annotations
 import json
 import os
 import sys
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 from clock import once, per_call
+
+Answers = dict[str, Callable[[], float]]  # seconds
 
 
 def step(model: Any, scene: dict[str, Any]) -> dict[str, float]:
@@ -35,14 +39,15 @@ def step(model: Any, scene: dict[str, Any]) -> dict[str, float]:
 READS = ("q", "dq", "M", "c", "J", "T", "C", "contacts", "contact_objects")
 
 
-def access(model: Any, scene: dict[str, Any]) -> dict[str, float]:
-    """Seconds of reading with nothing changed, of writing, and of reading just after q changed."""
+def access(model: Any, scene: dict[str, Any]) -> Answers:
+    """Reading with nothing changed, writing, and reading just after q changed."""
     model.step()
-    figures = {name: per_call(getattr(model, name)) for name in READS}
     poses = [model.q(), model.q() + 1e-3]
     tau = np.zeros(model.num_dofs())
 
-    def both(call: Any) -> float:
+    def after_q(call: Any) -> float:
+        """Seconds of writing q and the call."""
+
         def calls() -> None:
             for q in poses:
                 model.set_q(q)
@@ -50,15 +55,18 @@ def access(model: Any, scene: dict[str, Any]) -> dict[str, float]:
 
         return per_call(calls) / 2
 
-    figures["q ="] = both(lambda: None)
-    figures["tau ="] = per_call(lambda: model.set_tau(tau))
-    for name in READS[2:-2]:
-        figures[f"{name} after q ="] = both(getattr(model, name)) - figures["q ="]
-    return figures
+    def only_after_q(call: Any) -> float:
+        return after_q(call) - after_q(lambda: None)
+
+    answers = {name: partial(per_call, getattr(model, name)) for name in READS}
+    answers["q ="] = partial(after_q, lambda: None)
+    answers["tau ="] = partial(per_call, lambda: model.set_tau(tau))
+    answers |= {f"{name} after q =": partial(only_after_q, getattr(model, name)) for name in READS[2:-2]}
+    return answers
 
 
-def control(model: Any, scene: dict[str, Any]) -> dict[str, float]:
-    """Seconds of one step under PD and under stable PD control (Tan, Liu, Turk 2011), as a user would write them."""
+def control(model: Any, scene: dict[str, Any]) -> Answers:
+    """One step under PD and under stable PD control (Tan, Liu, Turk 2011), as a user would write them."""
     n, h, start = model.num_dofs(), scene["dt"], model.states()
     target = np.array(model.q())
     joints = np.repeat([0.0, 1.0], [6, n - 6])  # without the free root
@@ -78,9 +86,10 @@ def control(model: Any, scene: dict[str, Any]) -> dict[str, float]:
         model.step()
 
     def run(loop: Any) -> float:
-        return once(lambda: [loop() for _ in range(scene["steps"])], lambda: model.set_states(start)) / scene["steps"]
+        steps = range(scene["steps"])
+        return once(lambda: [loop() for _ in steps], lambda: model.set_states(start), repeats=1) / len(steps)
 
-    return {"PD": run(pd), "stable PD": run(stable_pd)}
+    return {"PD": partial(run, pd), "stable PD": partial(run, stable_pd)}
 
 
 def states(model: Any, scene: dict[str, Any]) -> list[str]:
@@ -105,14 +114,23 @@ def load(binding: Any, scene: dict[str, Any]) -> dict[str, float]:
     return {"seconds": seconds, "bytes": (resident() - before) / count}
 
 
+def talk(answers: Answers) -> None:
+    """Tell the names of the figures, then those that are asked for, as often as they are."""
+    print("answer", json.dumps(list(answers)), flush=True)
+    for line in sys.stdin:
+        print("answer", answers[line.strip()](), flush=True)
+
+
 def play(binding: Any) -> None:
     """Answer the question on the command line: QUESTION SCENE."""
     question, scene = sys.argv[1], json.loads(sys.argv[2])
     if question == "load":
-        figures = load(binding, scene)
+        print(json.dumps(load(binding, scene)))
+        return
+    model = binding(scene)
+    for _ in range(scene["warm"]):
+        model.step()
+    if question in ("access", "control"):
+        talk({"access": access, "control": control}[question](model, scene))
     else:
-        model = binding(scene)
-        for _ in range(scene["warm"]):
-            model.step()
-        figures = {"step": step, "access": access, "control": control, "states": states}[question](model, scene)
-    print(json.dumps(figures))
+        print(json.dumps({"step": step, "states": states}[question](model, scene)))

@@ -31,6 +31,13 @@ from crash.fuzz_api import DOCUMENTED, ENVIRONMENT, VALUES, do, members, things_
 THREADS = 4
 SECONDS_PER_PROCESS = 10.0
 MODELS = ("cubes", "cubes", "cubes", "chain", "chain", "shapes", "fullbody1", "softBodies")
+BOX = """<robot name="box">
+  <link name="box">
+    <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+    <collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>
+  </link>
+</robot>
+"""
 
 
 class Hands:
@@ -83,7 +90,7 @@ class Hands:
             "check_collision": lambda world: world.check_collision(),
             "detector": lambda world: world.set_collision_detector(draw(4)),
             "solver": lambda world: world.set_constraint_solver(self.random.choice(["dart", "fast"])),
-            "add": lambda world: world.add_skeleton("skel/ground.skel"),
+            "add": lambda world: world.add_skeleton(BOX, safe=False),
             "remove": self.remove_skeleton,
             "weld": lambda world: self.random.choice(world.skeletons).set_root_joint_to_weld(),
             "keep": self.keep,
