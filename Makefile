@@ -51,11 +51,13 @@ test-viewer: setup
 soak: setup
 	$(VENV)/bin/python -m pytest -m soak -s
 
-# AddressSanitizer and UndefinedBehaviorSanitizer on our own code; then what leaks. TESTS=tests/unit for a part.
+# AddressSanitizer and UndefinedBehaviorSanitizer on our own code; what leaks; then ThreadSanitizer. TESTS=tests/unit for
+# a part.
 sanitize: setup
 	tools/instrumented.sh sanitize $(VENV)/bin/pytest -p no:cacheprovider --ignore=tests/packaging $(TESTS)
 	ASAN_OPTIONS=detect_leaks=1:fast_unwind_on_malloc=0 LSAN_OPTIONS=suppressions=tests/soak/leaks.supp PYTHONMALLOC=malloc \
 	  tools/instrumented.sh sanitize $(VENV)/bin/python tests/soak/leaks.py
+	tools/instrumented.sh threads $(VENV)/bin/python tests/crash/fuzz_threads.py 60
 
 # Lines of pydart2/ and src/cpp/ that the tests reach; HTML in build/coverage/html.
 coverage: setup

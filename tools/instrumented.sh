@@ -1,6 +1,6 @@
 #!/bin/sh
 # A second build of the extension, beside the installed one, and a command that runs with it:
-#   tools/instrumented.sh sanitize|coverage COMMAND...
+#   tools/instrumented.sh sanitize|threads|coverage COMMAND...
 # It runs in build/KIND, a copy of the sources with that build in place, so that whatever the command starts finds it.
 # The engine's own libraries stay as Debian built them.
 set -eu
@@ -21,14 +21,18 @@ cmake --build "$folder/cmake" --parallel "$(nproc)" >>"$folder/cmake.log"
 
 cd "$folder"
 export PYTHONPATH="$folder"
-if [ "$kind" = sanitize ]; then
-  # The helper that tries models limits its memory, and AddressSanitizer wants terabytes of addresses.
+if [ "$kind" != coverage ]; then
+  # The helper that tries models limits its memory, and the sanitizers want terabytes of addresses.
   mv "$helper" "$helper"_plain
   printf '#!/bin/sh\nunset LD_PRELOAD\nexec "$0"_plain "$@"\n' >"$helper"
   chmod +x "$helper"
-  # Python is not instrumented, so the sanitizers come first..
+fi
+# Python is not instrumented, so the sanitizers come first.
+if [ "$kind" = sanitize ]; then
   export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so.6)"
   export ASAN_OPTIONS="detect_leaks=0:detect_container_overflow=0:abort_on_error=1:${ASAN_OPTIONS:-}"
   export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
+elif [ "$kind" = threads ]; then
+  export LD_PRELOAD="$(gcc -print-file-name=libtsan.so) $(gcc -print-file-name=libstdc++.so.6)"
 fi
 exec "$@"
