@@ -11,13 +11,16 @@ Array = NDArray[np.float64]
 
 #: Stiffness per kg of the skeleton, N/(m kg): one that hangs from the spring stretches it by g / 40, about 25 cm.
 STIFFNESS = 40.0
+#: The most that a pull accelerates the point where it pulls, m/s²; a light hand would spin an arm until it blows up.
+MAX_ACCELERATION = 50.0
 
 
 class Pull:
     """A spring with a damper from a point of a body to a point of the world.
 
-    Its stiffness suits the whole skeleton's mass, but never more than what a step of `dt` can integrate at the point
-    where it pulls; in the lightest direction there it moves the effective mass 1 / λmax(J M⁻¹ Jᵀ) (Khatib 1987).
+    It suits the whole skeleton's mass. What that would do to the lighter mass that the point has in some direction in
+    the present pose, an eigenvalue of the inertia (J M⁻¹ Jᵀ)⁻¹ (Khatib 1987), is limited: to what a time step can
+    integrate, and to `MAX_ACCELERATION`.
 
     Attributes
     ----------
@@ -27,25 +30,15 @@ class Pull:
     target : (3,)
         Where it pulls to, in the world, m.
     stiffness, damping : float
-        N/m, N s/m; 0 for a body that cannot move.
+        N/m, N s/m, where nothing limits them.
     """
 
     def __init__(self, body: BodyNode, point: ArrayLike) -> None:
         self.body = body
         self.offset: Array = body.to_local(point)
         self.target: Array = np.array(point, dtype=float)
-        effective, dt = self._effective_mass(), body.world.dt
-        total = body.skel.m
-        self.stiffness = min(STIFFNESS * total, 0.05 * effective / dt**2)
-        self.damping = min(2.0 * np.sqrt(self.stiffness * total), 0.2 * effective / dt)
-
-    def _effective_mass(self) -> float:
-        skel = self.body.skel
-        if not skel.is_mobile() or not skel.ndofs:
-            return 0.0
-        jacobian = self.body.linear_jacobian(self.offset)
-        mobility = float(np.linalg.eigvalsh(jacobian @ np.linalg.lstsq(skel.M, jacobian.T, rcond=None)[0])[-1])
-        return 1.0 / mobility if mobility > 1e-12 else 0.0
+        self.stiffness = STIFFNESS * body.skel.m
+        self.damping = 2.0 * np.sqrt(STIFFNESS) * body.skel.m
 
     @property
     def point(self) -> Array:
@@ -54,9 +47,27 @@ class Pull:
 
     @property
     def force(self) -> Array:
-        """On the body, shape (3,), N."""
-        velocity = self.body.world_linear_velocity(self.offset)
-        return np.asarray(self.stiffness * (self.target - self.point) - self.damping * velocity)
+        """On the body, shape (3,), N; none along an axis where it cannot move."""
+        mobility, axes = self._mobility()
+        moves = mobility > 1e-12
+        mass = 1.0 / mobility[moves]
+        dt = self.body.world.dt
+        stiffness = np.minimum(self.stiffness, 0.05 * mass / dt**2)
+        damping = np.minimum(self.damping, 0.2 * mass / dt)
+        axes = axes[:, moves]
+        stretch, velocity = (self.target - self.point) @ axes, self.body.world_linear_velocity(self.offset) @ axes
+        limit = MAX_ACCELERATION * mass
+        return np.asarray(axes @ np.clip(stiffness * stretch - damping * velocity, -limit, limit))
+
+    def _mobility(self) -> tuple[Array, Array]:
+        """Along which axes, the columns, a force on the point accelerates it how much, 1/kg."""
+        skel = self.body.skel
+        if not skel.is_mobile() or not skel.ndofs:
+            return np.zeros(3), np.eye(3)
+        jacobian = self.body.linear_jacobian(self.offset)
+        mass_matrix = skel.M + 1e-12 * skel.m * np.eye(skel.ndofs)  # a root may have no mass
+        mobility, axes = np.linalg.eigh(jacobian @ np.linalg.solve(mass_matrix, jacobian.T))
+        return mobility, axes
 
     def apply(self) -> None:
         """Pull in the next step."""

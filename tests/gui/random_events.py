@@ -26,10 +26,10 @@ from gui.hands import drag
 from pydart2.gui.pyqt5.side_panel import SidePanel
 from pydart2.gui.pyqt5.window import PyQt5Window
 
-MODELS = {  # and the time step of the examples, s
+MODELS = {  # and the time step of the examples, s; limp limbs in the air need a shorter one
     "cubes": ("skel/cubes.skel", 1.0 / 1000.0),
     "chain": ("skel/chain.skel", 1.0 / 5000.0),
-    "fullbody1": ("skel/fullbody1.skel", 1.0 / 2000.0),
+    "fullbody1": ("skel/fullbody1.skel", 1.0 / 10000.0),
     "softBodies": ("skel/softBodies.skel", 1.0 / 1000.0),
     "atlas": ("sdf/atlas/atlas_v3_no_head.sdf", 1.0 / 1000.0),
 }

@@ -15,7 +15,7 @@ from pydart2.gui import user_input
 from pydart2.gui.camera import as_camera
 from pydart2.gui.camera_control import CameraControl
 from pydart2.gui.capture import CaptureFolder, write_movie
-from pydart2.gui.pull import Pull
+from pydart2.gui.pull import MAX_ACCELERATION, Pull
 from pydart2.gui.trackball import Trackball
 
 numbers = st.floats(-5.0, 5.0)
@@ -107,6 +107,19 @@ def test_a_pull_at_any_body_of_a_robot_stays_finite(atlas: pydart2.Skeleton) -> 
             pull.apply()
             world.step()
         assert np.abs(atlas.dq).max() < 200.0, body.name
+
+
+def test_a_light_hand_is_pulled_gently() -> None:
+    """Two metres of spring for the whole body's mass are 3.8 kN; they do not throw the hand."""
+    world = pydart2.World(0.001, "skel/fullbody1.skel")
+    world.g = [0.0, 0.0, 0.0]
+    hand = world.skeletons[1].body("h_hand_left")
+    pull = Pull(hand, hand.C)
+    pull.target = pull.point + np.array([0.0, 2.0, 0.0])
+    pull.apply()
+    world.step()
+    acceleration = hand.com_linear_velocity() / world.dt
+    assert 0.9 * MAX_ACCELERATION < np.linalg.norm(acceleration) <= 1.01 * np.sqrt(3.0) * MAX_ACCELERATION
 
 
 def test_nothing_pulls_what_cannot_move(cubes: pydart2.World) -> None:
