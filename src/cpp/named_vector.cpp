@@ -131,6 +131,40 @@ int assign_names(PyObject* self, PyObject* names, void*)
   return 0;
 }
 
+/// NumPy calls this on its results. As the base's, but single numbers are NumPy's scalars: the base makes them arrays
+/// without dimensions.
+PyObject* array_wrap(PyObject* self, PyObject* const* args, Py_ssize_t count) // array, context, return_scalar
+{
+  if (count < 1 || count > 3 || !PyArray_Check(args[0])) {
+    PyErr_SetString(PyExc_TypeError, "__array_wrap__() takes an array, a context and whether to return a scalar");
+    return nullptr;
+  }
+  auto* array = reinterpret_cast<PyArrayObject*>(args[0]);
+  const int return_scalar = count == 3 ? PyObject_IsTrue(args[2]) : 0;
+  if (return_scalar < 0)
+    return nullptr;
+  Py_INCREF(array);
+  if (return_scalar != 0)
+    return PyArray_Return(array);
+  if (Py_TYPE(array) == Py_TYPE(self))
+    return reinterpret_cast<PyObject*>(array);
+  Py_INCREF(PyArray_DESCR(array));
+  PyObject* wrapped = PyArray_NewFromDescr(
+      Py_TYPE(self), PyArray_DESCR(array), PyArray_NDIM(array), PyArray_DIMS(array), PyArray_STRIDES(array),
+      PyArray_DATA(array), PyArray_FLAGS(array), self);
+  if (wrapped == nullptr)
+    Py_DECREF(array);
+  else if (PyArray_SetBaseObject(
+               reinterpret_cast<PyArrayObject*>(wrapped), reinterpret_cast<PyObject*>(array)) < 0) // takes the array
+    Py_CLEAR(wrapped);
+  return wrapped;
+}
+
+PyMethodDef methods[] = {
+    {"__array_wrap__", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(array_wrap)), METH_FASTCALL,
+     "NumPy's hook for results: those with names stay vectors, single numbers are numbers."},
+    {nullptr, nullptr, 0, nullptr}};
+
 PyGetSetDef getset[] = {
     {"_names", get_names, assign_names, "The names of the entries, or None.", nullptr},
     {nullptr, nullptr, nullptr, nullptr, nullptr}};
@@ -143,6 +177,7 @@ PyObject* make_type()
       {Py_tp_dealloc, reinterpret_cast<void*>(dealloc)},
       {Py_mp_subscript, reinterpret_cast<void*>(subscript)},
       {Py_mp_ass_subscript, reinterpret_cast<void*>(assign_subscript)},
+      {Py_tp_methods, methods},
       {Py_tp_getset, getset},
       {Py_tp_doc, const_cast<char*>("An ndarray that knows the names of its entries; the base of SkelVector.")},
       {0, nullptr}};
