@@ -62,7 +62,7 @@ class Pull:
     def _mobility(self) -> tuple[Array, Array]:
         """Along which axes, the columns, a force on the point accelerates it how much, 1/kg."""
         skel = self.body.skel
-        if not skel.is_mobile() or not skel.ndofs:
+        if not skel.is_mobile() or not skel.ndofs or not skel.m:
             return np.zeros(3), np.eye(3)
         jacobian = self.body.linear_jacobian(self.offset)
         mass_matrix = skel.M + 1e-12 * skel.m * np.eye(skel.ndofs)  # a root may have no mass
