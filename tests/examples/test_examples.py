@@ -60,7 +60,7 @@ PRINTED = {
 
 def run(folder: Path, name: str, *options: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, str(examples_folder() / f"{name}.py"), *options]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=900)
 
 
 def test_the_table_has_every_example() -> None:
