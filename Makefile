@@ -11,6 +11,7 @@ VENV := .venv
 export PYTHON VENV
 
 FUZZ_MODELS ?= 5000
+FUZZ_LOADS ?= 20000
 FUZZ_CALLS ?= 1000000
 FUZZ_SECONDS ?= 300
 
@@ -75,6 +76,8 @@ test-third-party: setup
 
 fuzz: setup
 	$(VENV)/bin/python tests/crash/fuzz_models.py $(FUZZ_MODELS)
+	$(VENV)/bin/python tests/crash/fuzz_loaders.py $(FUZZ_LOADS) 2>build/fuzz.log || { tail -50 build/fuzz.log; exit 1; }
+	@tail -6 build/fuzz.log
 	$(VENV)/bin/python tests/crash/fuzz_api.py $(FUZZ_CALLS)
 	$(VENV)/bin/python tests/crash/fuzz_threads.py $(FUZZ_SECONDS)
 

@@ -116,6 +116,14 @@ TREE_CHANGES: tuple[Callable[[ET.Element, random.Random], None], ...] = (
 )
 
 
+def damage_tree(root: ET.Element, rng: random.Random) -> bytes:
+    """Some changes, most often one."""
+    for _ in range(rng.choice((1, 1, 1, 2, 3, 8))):
+        if len(root):
+            rng.choice(TREE_CHANGES)(root, rng)
+    return ET.tostring(root)
+
+
 def _damage_bytes(data: bytes, rng: random.Random) -> bytes:
     """Flip, cut out, repeat or cut off."""
     at, length = rng.randrange(len(data)), rng.randrange(1, 40)
@@ -136,13 +144,9 @@ def damaged(number: int, models: list[Path]) -> bytes:
     if rng.random() < 0.1:
         return _damage_bytes(data, rng)
     try:
-        root = ET.fromstring(data)
+        return damage_tree(ET.fromstring(data), rng)
     except ET.ParseError:
         return _damage_bytes(data, rng)
-    for _ in range(rng.choice((1, 1, 1, 2, 3, 8))):
-        if len(root):
-            rng.choice(TREE_CHANGES)(root, rng)
-    return ET.tostring(root)
 
 
 # Loading them

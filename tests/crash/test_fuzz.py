@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +16,17 @@ def test_damaged_models() -> None:
     outcomes, troubles = fuzz_models.run(1_000_000, 120)
     assert troubles == [] and sum(outcomes.values()) == 120
     assert outcomes["loaded"] > 20 and outcomes["refused"] > 20
+
+
+def test_loaders_under_libfuzzer(tmp_path: Path) -> None:
+    pytest.importorskip("atheris", reason="PyPI has atheris for x86_64 alone")
+    command = [sys.executable, Path(fuzz_models.__file__).with_name("fuzz_loaders.py"), "500", tmp_path]
+    done = subprocess.run(command, capture_output=True, text=True, env=fuzz_models.ENVIRONMENT)
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert "number_of_executed_units: 500" in done.stderr
+    first, *_, last = (int(count) for count in re.findall(r"cov: (\d+)", done.stderr))
+    assert last > first > 300, "damaged models reach branches that no model as it is reaches"
+    assert list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("seed", sorted(fuzz_models.SEEDS.glob("*")), ids=lambda path: path.name)
