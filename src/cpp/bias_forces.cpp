@@ -22,25 +22,26 @@ const Eigen::VectorXd& BiasForces::update(const LinkTree& tree)
 void BiasForces::go_outwards(const LinkTree& tree)
 {
   motions_.resize(tree.links.size());
-  const Motion base{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, {}, tree.skeleton.getGravity()};
+  const Spatial none{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  const Motion base{none, none, {}, tree.skeleton.getGravity()};
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     const Link& link = tree.links[i];
     const Motion& parent = link.parent < 0 ? base : motions_[static_cast<std::size_t>(link.parent)];
-    const Eigen::Isometry3d& T = link.joint->getRelativeTransform();
-    const Eigen::Vector6d& V = link.body->getSpatialVelocity();
-    const Eigen::Vector6d& partial = link.body->getPartialAcceleration();
-    const auto turned = T.linear().transpose();
-    auto& [a, F, g] = motions_[i];
+    auto& [v, a, F, g] = motions_[i];
 
-    a.angular = turned * parent.acceleration.angular + partial.head<3>();
-    a.linear = turned * (parent.acceleration.linear + parent.acceleration.angular.cross(T.translation())) + partial.tail<3>();
-    g = turned * parent.gravity;
+    v = link.from_parent(parent.velocity);
+    a = link.from_parent(parent.acceleration);
+    g = link.joint->getRelativeTransform().linear().transpose() * parent.gravity;
+    if (link.num_dofs > 0) {
+      const Spatial joint_velocity = link.times_velocities(link.S());
+      v += joint_velocity;
+      a += cross(v, joint_velocity);
+      a += link.times_velocities(link.S_rate());
+    }
 
     const SpatialInertia I = link.inertia();
-    const Spatial v{V.head<3>(), V.tail<3>()}, momentum = I * v;
     F = I * Spatial{a.angular, link.body->getGravityMode() ? Eigen::Vector3d(a.linear - g) : a.linear};
-    F.angular += v.angular.cross(momentum.angular) + v.linear.cross(momentum.linear);
-    F.linear += v.angular.cross(momentum.linear);
+    F += cross_force(v, I * v);
   }
 }
 
@@ -53,12 +54,8 @@ void BiasForces::go_inwards(const std::vector<Link>& links, Eigen::VectorXd& c)
       const auto column = link.S().col(k);
       c[link.first_dof + k] = column.head<3>().dot(F.angular) + column.tail<3>().dot(F.linear);
     }
-    if (link.parent < 0)
-      continue;
-    const Spatial added = link.to_parent(F);
-    Spatial& parent = motions_[static_cast<std::size_t>(link.parent)].force;
-    parent.angular += added.angular;
-    parent.linear += added.linear;
+    if (link.parent >= 0)
+      motions_[static_cast<std::size_t>(link.parent)].force += link.to_parent(F);
   }
 }
 

@@ -12,8 +12,8 @@ namespace pydart2 {
 ///
 /// With the links in an order where parents come first, each vector in the frame of its link, X from parent to link:
 ///
-///   1. From the root outwards: a_i = X a_p(i) + v_i x S_i q' + S_i' q', the acceleration without gravity; the engine keeps
-///      the last two terms. Gravity g_i = R^T g_p(i).
+///   1. From the root outwards: v_i = X v_p(i) + S_i q' and a_i = X a_p(i) + v_i x S_i q' + S_i' q', the acceleration
+///      without gravity. Gravity g_i = R^T g_p(i).
 ///   2. F_i = I_i (a_i - g_i) + v_i x* I_i v_i, with g_i only where gravity acts on the body.
 ///   3. From the leaves inwards: c_i = S_i^T F_i, and F_i taken to the parent's frame is added to F_p(i).
 class BiasForces
@@ -25,7 +25,7 @@ public:
 private:
   struct Motion
   {
-    Spatial acceleration, force;
+    Spatial velocity, acceleration, force;
     Eigen::Vector3d gravity;
   };
 

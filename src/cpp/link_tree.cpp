@@ -12,34 +12,28 @@ namespace {
 using dart::dynamics::Joint;
 
 template <class Space>
-const double* columns_of(const Joint& joint)
+bool find(const Joint& joint, JointNumbers& numbers)
 {
-  return static_cast<const dart::dynamics::GenericJoint<Space>&>(joint).getRelativeJacobianStatic().data();
+  using Generic = dart::dynamics::GenericJoint<Space>;
+  const auto* typed = dynamic_cast<const Generic*>(&joint);
+  if (typed == nullptr)
+    return false;
+  numbers = {
+      [](const Joint& j) { return static_cast<const Generic&>(j).getRelativeJacobianStatic().data(); },
+      [](const Joint& j) { return static_cast<const Generic&>(j).getRelativeJacobianTimeDerivStatic().data(); },
+      typed->getVelocitiesStatic().data()};
+  return true;
 }
 
-template <class Space>
-bool is_over(const Joint& joint)
-{
-  return dynamic_cast<const dart::dynamics::GenericJoint<Space>*>(&joint) != nullptr;
-}
-
-/// How to get at the Jacobian of a joint of this type without an allocation. The engine updates it when it is read.
-auto columns_reader(const Joint& joint) -> const double* (*)(const Joint&)
+JointNumbers numbers_of(const Joint& joint)
 {
   using namespace dart::math;
-  if (joint.getNumDofs() == 0)
-    return nullptr;
-  if (is_over<R1Space>(joint))
-    return columns_of<R1Space>;
-  if (is_over<R2Space>(joint))
-    return columns_of<R2Space>;
-  if (is_over<R3Space>(joint))
-    return columns_of<R3Space>;
-  if (is_over<SO3Space>(joint))
-    return columns_of<SO3Space>;
-  if (is_over<SE3Space>(joint))
-    return columns_of<SE3Space>;
-  throw Error(Kind::engine, "joint '" + joint.getName() + "' is a " + joint.getType() + ", which is not known here");
+  JointNumbers numbers;
+  const bool found = joint.getNumDofs() == 0 || find<R1Space>(joint, numbers) || find<R2Space>(joint, numbers)
+                     || find<R3Space>(joint, numbers) || find<SO3Space>(joint, numbers) || find<SE3Space>(joint, numbers);
+  if (!found)
+    throw Error(Kind::engine, "joint '" + joint.getName() + "' is a " + joint.getType() + ", which is not known here");
+  return numbers;
 }
 
 } // namespace
@@ -49,6 +43,21 @@ SpatialInertia Link::inertia() const
   // DART's tensor is [[I, [h]], [[h]^T, m 1]].
   const Eigen::Matrix6d& tensor = body->getSpatialInertia();
   return {tensor(3, 3), {tensor(2, 4), tensor(0, 5), tensor(1, 3)}, tensor.topLeftCorner<3, 3>()};
+}
+
+Spatial Link::times_velocities(const Columns& columns) const
+{
+  Spatial sum{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  for (int k = 0; k < num_dofs; ++k)
+    sum += {columns.col(k).head<3>() * numbers.velocities[k], columns.col(k).tail<3>() * numbers.velocities[k]};
+  return sum;
+}
+
+Spatial Link::from_parent(const Spatial& motion) const
+{
+  const Eigen::Isometry3d& T = joint->getRelativeTransform();
+  const auto turned = T.linear().transpose();
+  return {turned * motion.angular, turned * (motion.linear + motion.angular.cross(T.translation()))};
 }
 
 Spatial Link::to_parent(const Spatial& force) const
@@ -64,13 +73,31 @@ LinkTree::LinkTree(dart::dynamics::Skeleton& skeleton) : skeleton(skeleton)
     add(*skeleton.getRootBodyNode(tree), -1);
 }
 
+Eigen::Vector3d LinkTree::com()
+{
+  poses_.resize(links.size());
+  const auto pose = [this](std::size_t i) -> const Eigen::Isometry3d& {
+    return links[i].body->needsTransformUpdate() ? poses_[i] : links[i].body->getWorldTransform();
+  };
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Link& link = links[i];
+    if (link.body->needsTransformUpdate()) {
+      const Eigen::Isometry3d& T = link.joint->getRelativeTransform();
+      poses_[i] = link.parent < 0 ? T : pose(static_cast<std::size_t>(link.parent)) * T;
+    }
+    sum += link.body->getMass() * (pose(i) * link.body->getLocalCOM());
+  }
+  return sum / skeleton.getMass();
+}
+
 void LinkTree::add(dart::dynamics::BodyNode& body, int parent)
 {
   const Joint& joint = *body.getParentJoint();
   const auto num_dofs = static_cast<int>(joint.getNumDofs());
   const int first_dof = num_dofs == 0 ? 0 : static_cast<int>(joint.getIndexInSkeleton(0));
   const auto index = static_cast<int>(links.size());
-  links.push_back({&body, &joint, columns_reader(joint), parent, first_dof, num_dofs});
+  links.push_back({&body, &joint, numbers_of(joint), parent, first_dof, num_dofs});
   for (std::size_t i = 0; i < body.getNumChildBodyNodes(); ++i)
     add(*body.getChildBodyNode(i), index);
 }

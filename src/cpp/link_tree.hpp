@@ -11,7 +11,24 @@ using Columns = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>>;
 struct Spatial
 {
   Eigen::Vector3d angular, linear;
+
+  Spatial& operator+=(const Spatial& other)
+  {
+    angular += other.angular;
+    linear += other.linear;
+    return *this;
+  }
 };
+
+/// v x m of two motions, and v x* f of a motion and a force (Featherstone, sections 2.9 and 2.10).
+inline Spatial cross(const Spatial& v, const Spatial& m)
+{
+  return {v.angular.cross(m.angular), v.angular.cross(m.linear) + v.linear.cross(m.angular)};
+}
+inline Spatial cross_force(const Spatial& v, const Spatial& f)
+{
+  return {v.angular.cross(f.angular) + v.linear.cross(f.linear), v.angular.cross(f.linear)};
+}
 
 /// Mass, first moment h and rotational inertia about the origin of the link's frame.
 struct SpatialInertia
@@ -26,18 +43,35 @@ struct SpatialInertia
   }
 };
 
-/// A body with the joint to its parent, and where its numbers are.
+/// Where the engine keeps the numbers of a joint; none is there for a joint without dofs.
+struct JointNumbers
+{
+  using Find = const double* (*)(const dart::dynamics::Joint&);
+  Find S = nullptr, S_rate = nullptr; ///< 6 numbers per dof. The engine brings them up to date when asked.
+  const double* velocities = nullptr;
+};
+
+/// A body with the joint to its parent.
 struct Link
 {
   const dart::dynamics::BodyNode* body;
   const dart::dynamics::Joint* joint;
-  const double* (*columns)(const dart::dynamics::Joint&); ///< Where the engine keeps S, 6 numbers per dof.
+  JointNumbers numbers;
   int parent, first_dof, num_dofs;
 
   /// The joint's Jacobian S: a column [angular; linear] in the link's frame per dof.
-  Columns S() const { return {columns(*joint), 6, num_dofs}; }
+  Columns S() const { return {numbers.S(*joint), 6, num_dofs}; }
+
+  /// Its derivative by the time.
+  Columns S_rate() const { return {numbers.S_rate(*joint), 6, num_dofs}; }
+
+  /// S q' or S' q'.
+  Spatial times_velocities(const Columns& columns) const;
 
   SpatialInertia inertia() const;
+
+  /// A motion of the parent as one of the link.
+  Spatial from_parent(const Spatial& motion) const;
 
   /// A force on the link as one on its parent.
   Spatial to_parent(const Spatial& force) const;
@@ -48,11 +82,17 @@ struct LinkTree
 {
   explicit LinkTree(dart::dynamics::Skeleton& skeleton);
 
+  /// The centre of mass in the world. Where the engine's transforms are out of date it computes its own and leaves
+  /// those as they are: the next change of q then has nothing to mark.
+  Eigen::Vector3d com();
+
   dart::dynamics::Skeleton& skeleton;
   std::vector<Link> links;
 
 private:
   void add(dart::dynamics::BodyNode& body, int parent);
+
+  std::vector<Eigen::Isometry3d> poses_;
 };
 
 /// The engine's own memory for M and c, and whether they are out of date. Filling that instead of a second one keeps one

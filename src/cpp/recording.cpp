@@ -37,11 +37,13 @@ void Recording::clear()
 const Frame& Recording::add(std::size_t num_states, std::size_t num_contacts, int layout)
 {
   Frame frame{nullptr, num_states, num_contacts, layout};
-  if (pieces_.empty() || pieces_.back().numbers.capacity() < pieces_.back().numbers.size() + frame.size())
-    pieces_.emplace_back().numbers.reserve(std::max(piece_size, frame.size()));
+  if (pieces_.empty() || pieces_.back().capacity < pieces_.back().size + frame.size()) {
+    const std::size_t capacity = std::max(piece_size, frame.size());
+    pieces_.push_back({std::unique_ptr<double[]>(new double[capacity]), capacity}); // not make_unique, which clears them
+  }
   auto& piece = pieces_.back();
-  frame.state = piece.numbers.data() + piece.numbers.size();
-  piece.numbers.resize(piece.numbers.size() + frame.size());
+  frame.state = piece.numbers.get() + piece.size;
+  piece.size += frame.size();
   ++piece.num_frames;
   bytes_ += frame.bytes();
   frames_.push_back(frame);

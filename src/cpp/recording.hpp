@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <deque>
-#include <vector>
+#include <memory>
 
 namespace pydart2 {
 
@@ -47,7 +47,8 @@ public:
 private:
   struct Piece
   {
-    std::vector<double> numbers;
+    std::unique_ptr<double[]> numbers;
+    std::size_t capacity, size = 0;
     std::size_t num_frames = 0; ///< That are kept.
   };
 
