@@ -20,7 +20,7 @@ struct Spatial
   }
 };
 
-/// v x m of two motions, and v x* f of a motion and a force (Featherstone, sections 2.9 and 2.10).
+/// v x m of two motions, and v x* f of a motion and a force (Featherstone, section 2.9).
 inline Spatial cross(const Spatial& v, const Spatial& m)
 {
   return {v.angular.cross(m.angular), v.angular.cross(m.linear) + v.linear.cross(m.angular)};

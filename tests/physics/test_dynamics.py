@@ -55,6 +55,19 @@ def rate(skel: pydart2.Skeleton, q: Vector, dq: Vector, read: Callable[[], Vecto
 
 
 @few
+@given(q=vectors, dof=st.integers(0, NDOFS - 1), position=st.floats(-1.2, 1.2))
+def test_centre_of_mass_is_the_mean_of_the_bodies(skel: pydart2.Skeleton, q: Vector, dof: int, position: float) -> None:
+    """Also where one joint has moved since all transforms were read."""
+    skel.q = q
+    assert all(np.isfinite(body.T).all() for body in skel.bodynodes)
+    skel.dofs[dof].set_position(position)
+    found = skel.C
+    mean = sum(body.m * body.C for body in skel.bodynodes) / skel.m
+    np.testing.assert_allclose(found, mean, atol=1e-13)
+    np.testing.assert_allclose(skel.C, mean, atol=1e-13)  # with the transforms that the engine knows by now
+
+
+@few
 @given(q=vectors, dq=vectors, name=bodies, point=points)
 def test_linear_jacobian_gives_the_velocity(
     skel: pydart2.Skeleton, q: Vector, dq: Vector, name: str, point: Vector
