@@ -75,20 +75,20 @@ LinkTree::LinkTree(dart::dynamics::Skeleton& skeleton) : skeleton(skeleton)
 
 Eigen::Vector3d LinkTree::com()
 {
-  poses_.resize(links.size());
-  const auto pose = [this](std::size_t i) -> const Eigen::Isometry3d& {
-    return links[i].body->needsTransformUpdate() ? poses_[i] : links[i].body->getWorldTransform();
-  };
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < links.size(); ++i) {
+  moments_.assign(links.size(), {0.0, Eigen::Vector3d::Zero()});
+  Moment whole = {0.0, Eigen::Vector3d::Zero()};
+  for (std::size_t i = links.size(); i-- > 0;) {
     const Link& link = links[i];
-    if (link.body->needsTransformUpdate()) {
-      const Eigen::Isometry3d& T = link.joint->getRelativeTransform();
-      poses_[i] = link.parent < 0 ? T : pose(static_cast<std::size_t>(link.parent)) * T;
-    }
-    sum += link.body->getMass() * (pose(i) * link.body->getLocalCOM());
+    auto& [m, h] = moments_[i];
+    const double mass = link.body->getMass();
+    m += mass;
+    h += mass * link.body->getLocalCOM();
+    const Eigen::Isometry3d& T = link.joint->getRelativeTransform();
+    Moment& parent = link.parent < 0 ? whole : moments_[static_cast<std::size_t>(link.parent)];
+    parent.m += m;
+    parent.h += T.linear() * h + m * T.translation();
   }
-  return sum / skeleton.getMass();
+  return whole.h / whole.m;
 }
 
 void LinkTree::add(dart::dynamics::BodyNode& body, int parent)
