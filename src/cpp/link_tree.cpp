@@ -73,24 +73,6 @@ LinkTree::LinkTree(dart::dynamics::Skeleton& skeleton) : skeleton(skeleton)
     add(*skeleton.getRootBodyNode(tree), -1);
 }
 
-Eigen::Vector3d LinkTree::com()
-{
-  moments_.assign(links.size(), {0.0, Eigen::Vector3d::Zero()});
-  Moment whole = {0.0, Eigen::Vector3d::Zero()};
-  for (std::size_t i = links.size(); i-- > 0;) {
-    const Link& link = links[i];
-    auto& [m, h] = moments_[i];
-    const double mass = link.body->getMass();
-    m += mass;
-    h += mass * link.body->getLocalCOM();
-    const Eigen::Isometry3d& T = link.joint->getRelativeTransform();
-    Moment& parent = link.parent < 0 ? whole : moments_[static_cast<std::size_t>(link.parent)];
-    parent.m += m;
-    parent.h += T.linear() * h + m * T.translation();
-  }
-  return whole.h / whole.m;
-}
-
 void LinkTree::add(dart::dynamics::BodyNode& body, int parent)
 {
   const Joint& joint = *body.getParentJoint();

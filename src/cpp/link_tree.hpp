@@ -82,24 +82,11 @@ struct LinkTree
 {
   explicit LinkTree(dart::dynamics::Skeleton& skeleton);
 
-  /// The centre of mass in the world, from the leaves inwards: without the poses of the links, which the engine would
-  /// have to mark at the next change of q.
-  Eigen::Vector3d com();
-
   dart::dynamics::Skeleton& skeleton;
   std::vector<Link> links;
 
 private:
   void add(dart::dynamics::BodyNode& body, int parent);
-
-  /// Mass and first moment of a link and all below it, in its frame.
-  struct Moment
-  {
-    double m;
-    Eigen::Vector3d h;
-  };
-
-  std::vector<Moment> moments_;
 };
 
 /// The engine's own memory for M and c, and whether they are out of date. Filling that instead of a second one keeps one

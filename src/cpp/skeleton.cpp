@@ -333,10 +333,13 @@ dart::dynamics::Skeleton& SkeletonHandle::with_mass() const
   return skeleton;
 }
 
-void SkeletonHandle::com(Output& into)
+void SkeletonHandle::com(Output& into) const
 {
-  with_mass();
-  vector(into, 3) = tree_.com();
+  const auto& skel = with_mass();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(); // as Skeleton::getCOM(), which copies the transform of each body twice
+  for (const auto* body : skel.getBodyNodes())
+    sum += body->getMass() * (body->getWorldTransform() * body->getLocalCOM());
+  vector(into, 3) = sum / skel.getMass();
 }
 
 Eigen::Vector3d SkeletonHandle::com_velocity() const

@@ -78,7 +78,7 @@ public:
   void external_forces(Output& out) const;
   void constraint_forces(Output& into) const;
 
-  void com(Output& into);
+  void com(Output& into) const;
   Eigen::Vector3d com_velocity() const;
   Eigen::Vector3d com_acceleration() const;
   Vector6d com_spatial_velocity() const;
