@@ -10,6 +10,7 @@ import ctypes.util
 import os
 import sys
 import threading
+import weakref
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
@@ -63,6 +64,20 @@ def create_context() -> Context:
         except (OSError, ContextError) as error:
             reasons.append(f"{name}: {error}")
     raise ContextError(f"{_HELP}. Tried {'; '.join(reasons)}")
+
+
+def free_with(owner: object, context: Context) -> weakref.finalize[..., object]:
+    """Have a context freed when its owner is, or by a call of what is returned, or at the end of the process."""
+    return weakref.finalize(owner, _free, context, os.getpid())
+
+
+def _free(context: Context, process: int) -> None:
+    if process != os.getpid():
+        return  # in a fork, where the driver would hang
+    from pydart2.gui import drawing
+
+    drawing.forget(context.number)
+    context.destroy()
 
 
 _used_by: set[int] = set()  # processes that made contexts: this one, and those it was forked from

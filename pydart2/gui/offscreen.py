@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import threading
-import weakref
 from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -59,7 +57,7 @@ class OffscreenRenderer:
         self.width, self.height, self.samples = width, height, samples
         self._lock = threading.RLock()
         self._context = contexts.create_context()
-        self._free = weakref.finalize(self, _free, self._context, os.getpid())
+        self._free = contexts.free_with(self, self._context)
         self._targets: OrderedDict[tuple[int, ...], ColorTarget | BodiesTarget] = OrderedDict()
         with self._current():
             from pydart2.gui.opengl.scene import OpenGLScene
@@ -173,15 +171,6 @@ def render(world: Any, width: int = 640, height: int = 480, camera: CameraLike =
 @lru_cache(maxsize=1)
 def _shared_renderer() -> OffscreenRenderer:
     return OffscreenRenderer()
-
-
-def _free(context: contexts.Context, process: int) -> None:
-    if process != os.getpid():
-        return  # in a fork, where the driver would hang
-    from pydart2.gui import drawing
-
-    drawing.forget(context.number)
-    context.destroy()
 
 
 def _check_size(width: int, height: int) -> None:

@@ -208,3 +208,47 @@ SCRIPTS = {
 def test_scripts_run_as_they_are_in_ci(script: str, display: str) -> None:
     result = run_code(SCRIPTS[script], DISPLAY=display, PYDART2_VIEWER_SECONDS="0.7")
     assert result.returncode == 0, result.stderr
+
+
+AT_THE_END = """
+    import atexit
+    from PyQt5 import sip
+    from pydart2.gui import context
+    from pydart2.gui.pyqt5.application import application
+    import pydart2 as pydart
+
+    @atexit.register
+    def report():
+        print("windows gone:", [sip.isdeleted(window) for window in windows], "contexts freed:", freed)
+
+    freed = 0
+    class Counting(context._WAYS["egl"]):
+        def destroy(self):
+            global freed
+            freed += 1
+            super().destroy()
+
+    context._WAYS["egl"] = Counting
+    application()
+    world = pydart.World(0.001, "./data/skel/cubes.skel")
+    pydart.gui.render(world, 64, 48)
+    from pydart2.gui.pyqt5.window import PyQt5Window
+    windows = [PyQt5Window(world), PyQt5Window(world)]
+    for window in windows:
+        window.show()
+    window.glwidget.grab_image()
+    windows[0].close()
+"""
+
+
+def test_windows_and_contexts_are_freed_before_python_is_taken_apart() -> None:
+    result = run_code(AT_THE_END, QT_QPA_PLATFORM="offscreen", PYDART2_GL="egl")
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.splitlines()[-1] == "windows gone: [True, True] contexts freed: 3"
+
+
+def test_the_context_of_a_window_is_freed_with_it() -> None:
+    code = AT_THE_END + "    del window, windows[:]\n    import gc; gc.collect()\n    print('freed', freed)\n"
+    result = run_code(code, QT_QPA_PLATFORM="offscreen", PYDART2_GL="egl")
+    assert result.returncode == 0, result.stderr
+    assert "freed 2" in result.stdout

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import signal
 import sys
 import threading
@@ -10,6 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType, TracebackType
 
+from PyQt5 import sip
 from PyQt5.QtCore import Qt
 from PyQt5.QtGui import QSurfaceFormat
 from PyQt5.QtWidgets import QApplication
@@ -42,7 +44,14 @@ def application(title: str = "pydart2") -> QApplication:
     QApplication.setAttribute(Qt.AA_UseHighDpiPixmaps)
     _application = QApplication([title])
     _application.setStyle("Fusion")
+    atexit.register(_delete_windows)
     return _application
+
+
+def _delete_windows() -> None:
+    """Delete windows while there are the application and all of Python; else its last search for garbage would."""
+    for widget in [widget for widget in QApplication.topLevelWidgets() if sip.ispyowned(widget)]:
+        sip.delete(widget)
 
 
 @contextmanager

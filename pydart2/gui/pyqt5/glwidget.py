@@ -69,6 +69,7 @@ class ImageWidget(Picture, QWidget):
     def __init__(self, parent: PyQt5Window) -> None:
         QWidget.__init__(self, parent)
         self._context = contexts.create_context()
+        contexts.free_with(self, self._context)
         self._lock = threading.RLock()
         self._target: ColorTarget | None = None
         self.set_up(parent)
