@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from harness import BUILD, PLAYERS, Figures, Player, output
@@ -12,7 +14,8 @@ from scenes import Scene
 def loop_folder(prefix: Path | None = None) -> Path:
     """Where the loop is, over Debian's engine or the one in a folder; built on first use."""
     folder = BUILD / ("loop-optimised" if prefix else "loop")
-    output("cmake", "-S", PLAYERS, "-B", folder, *([f"-DCMAKE_PREFIX_PATH={prefix}"] if prefix else []))
+    python = f"-DPython3_EXECUTABLE={sys.executable}"
+    output("cmake", "-S", PLAYERS, "-B", folder, python, *([f"-DCMAKE_PREFIX_PATH={prefix}"] if prefix else []))
     output("cmake", "--build", folder)
     return folder
 
@@ -49,7 +52,11 @@ class Loop:
     """A scene, stepped by C++ in this process."""
 
     def __init__(self, scene: Scene) -> None:
-        self._library = library = ctypes.CDLL(str(loop_folder() / "libloop_world.so"))
+        folder = loop_folder()
+        self._library = library = ctypes.CDLL(str(folder / "libloop_world.so"))
+        self._calls = ctypes.PyDLL(str(folder / "libbare_call.so"))
+        self._calls.bare_step.argtypes = [ctypes.c_void_p]
+        self._calls.bare_step.restype = ctypes.py_object
         library.loop_make.restype = ctypes.c_void_p
         library.loop_position.argtypes = [ctypes.c_void_p]
         library.loop_steps.argtypes = [ctypes.c_void_p, ctypes.c_int]
@@ -64,3 +71,8 @@ class Loop:
     def position(self) -> float:
         """The first position of the last skeleton."""
         return float(self._library.loop_position(self._loop))
+
+    def bare_step(self) -> Callable[[], None]:
+        """A function in C that takes one step, with the interpreter's lock released: the least that a binding costs."""
+        step: Callable[[], None] = self._calls.bare_step(self._loop)
+        return step

@@ -1,8 +1,9 @@
 """What world.step() costs besides the engine, and next to the other bindings.
 
 The C++ loop and this project's worlds step in turn in this process, twenty steps at a time, a call for each: without
-recording, with it, and without but in one call; all go through the same states. The other bindings cannot be in one
-process with them. Arguments name some of the scenes.
+recording, with it, and without but in one call; all go through the same states. So do two loops stepped from Python by
+the least code that can: they tell what a call costs. The other bindings cannot be in one process with them. Arguments
+name some of the scenes.
 """
 
 from __future__ import annotations
@@ -10,7 +11,9 @@ from __future__ import annotations
 import statistics
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import asdict
+from functools import partial
 
 from harness import DEBIAN, LOOP, OURS, PLAYERS, PYPI, Ratio, competitors, rounds, table
 from loop import Loop, loop_player
@@ -25,9 +28,19 @@ PIECE = 20  # steps
 STEPS = {"cubes": 10_000, "chain": 20_000, "fullbody1": 2_000, "softBodies": 600, "Atlas": 2_000, "PR2": 4_000}
 
 
-def seconds(world: pydart2.World) -> float:
+class Method:
+    """A world with nothing but a step."""
+
+    def __init__(self, step: Callable[[], None]) -> None:
+        self._step = step
+
+    def step(self) -> None:
+        """One step."""
+        self._step()
+
+
+def seconds(step: Callable[[], None]) -> float:
     """CPU time of a piece."""
-    step = world.step
     begin = time.thread_time()
     for _ in range(PIECE):
         step()
@@ -50,14 +63,17 @@ def ours(scene: Scene, recording: bool) -> pydart2.World:
 
 
 def in_turn(scene: Scene) -> list[list[float]]:
-    """Times of the pieces: the loop's, ours, ours with recording, ours in one call."""
-    loop, off, on, at_once = Loop(scene), ours(scene, False), ours(scene, True), ours(scene, False)
-    calls = [lambda: loop.steps(PIECE), lambda: seconds(off), lambda: seconds(on), lambda: seconds_at_once(at_once)]
+    """Times of the pieces: the loop's, ours, with recording, the loop's by a function and by a method, ours at once."""
+    loop, function, method = Loop(scene), Loop(scene), Loop(scene)
+    off, on, at_once = ours(scene, False), ours(scene, True), ours(scene, False)
+    steps = [off.step, on.step, function.bare_step(), Method(method.bare_step()).step]
+    calls = [lambda: loop.steps(PIECE), *(partial(seconds, step) for step in steps), lambda: seconds_at_once(at_once)]
     times: list[list[float]] = [[] for _ in calls]
     for piece in range(STEPS[scene.name] // PIECE):
         for which in range(len(calls))[:: 1 if piece % 2 else -1]:
             times[which].append(calls[which]())
-        assert {loop.position()} == {world.skeletons[-1].q[0] for world in (off, on, at_once)}
+        positions = {world.skeletons[-1].q[0] for world in (off, on, at_once)}
+        assert positions == {loop.position()} == {function.position()} == {method.position()}
     return times
 
 
@@ -83,22 +99,24 @@ def main() -> None:
     for scene in scenes().values():
         if sys.argv[1:] and scene.name not in sys.argv[1:]:
             continue
-        loop, off, on, at_once = in_turn(scene)
+        loop, off, on, function, method, at_once = in_turn(scene)
         step = f"{sum(loop) / STEPS[scene.name] * 1e6:.3g} µs"
         found = rounds(players, "step", scene)
         to_loop = [Ratio([r[name]["step"] / r[LOOP]["step"] for r in found]) for name in (DEBIAN, PYPI)]
-        one_call = ratio(at_once, loop)[1]
-        rows.append([scene.name, step, *compared(off, loop, 1.03), *compared(on, loop, 1.1), one_call, *to_loop])
+        limits = [ratio(times, loop)[1] for times in (function, method, at_once)]
+        rows.append([scene.name, step, *compared(off, loop, 1.03), *compared(on, loop, 1.1), *limits, *to_loop])
     print(
         "## A step\n\n"
         "Time of a step as a ratio to the plain C++ loop over Debian's engine: in the same process, in turn,\n"
         "over all steps (quartiles of the pieces); the other bindings in processes of their own, median (range).\n"
     )
-    heads = ["scene", LOOP, OURS, "bar", "recording", "bar", f"step({PIECE})", DEBIAN, PYPI + ", another engine"]
+    limits = ["function", "method", f"step({PIECE})"]
+    heads = ["scene", LOOP, OURS, "bar", "recording", "bar", *limits, DEBIAN, PYPI + ", another engine"]
     print(table(heads, rows))
     print(
-        f"\n`step({PIECE})` makes one call for so many steps. The call from Python, with the interpreter's lock\n"
-        "released meanwhile, takes 0.2 µs; that sets the limit on the chain, whose step is short."
+        "\nThe limits: the loop's own step in a C function that Python calls and that lets go of the interpreter's\n"
+        f"lock, without any check; the same function in an empty Python method; `step({PIECE})`, one call of ours for\n"
+        "so many steps."
     )
 
 
