@@ -211,10 +211,9 @@ def test_scripts_run_as_they_are_in_ci(script: str, display: str) -> None:
 
 
 AT_THE_END = """
-    import atexit
-    from PyQt5 import sip
+    import atexit, gc
+    from PyQt5 import QtWidgets, sip
     from pydart2.gui import context
-    from pydart2.gui.pyqt5.application import application
     import pydart2 as pydart
 
     @atexit.register
@@ -229,7 +228,7 @@ AT_THE_END = """
             super().destroy()
 
     context._WAYS["egl"] = Counting
-    application()
+    application = QtWidgets.QApplication([]) if users_own else None
     world = pydart.World(0.001, "./data/skel/cubes.skel")
     pydart.gui.render(world, 64, 48)
     from pydart2.gui.pyqt5.window import PyQt5Window
@@ -238,17 +237,24 @@ AT_THE_END = """
         window.show()
     window.glwidget.grab_image()
     windows[0].close()
+    if drop:
+        del window, windows[:]
+        gc.collect()
+        print("freed by then:", freed)
 """
 
 
-def test_windows_and_contexts_are_freed_before_python_is_taken_apart() -> None:
-    result = run_code(AT_THE_END, QT_QPA_PLATFORM="offscreen", PYDART2_GL="egl")
+def at_the_end(users_own: bool = False, drop: bool = False) -> list[str]:
+    code = f"users_own, drop = {users_own}, {drop}\n{textwrap.dedent(AT_THE_END)}"
+    result = run_code(code, QT_QPA_PLATFORM="offscreen", PYDART2_GL="egl")
     assert result.returncode == 0, result.stderr
-    assert result.stdout.splitlines()[-1] == "windows gone: [True, True] contexts freed: 3"
+    return result.stdout.splitlines()
+
+
+@pytest.mark.parametrize("users_own", [True, False])
+def test_windows_and_contexts_are_freed_before_python_is_taken_apart(users_own: bool) -> None:
+    assert at_the_end(users_own)[-1] == "windows gone: [True, True] contexts freed: 3"
 
 
 def test_the_context_of_a_window_is_freed_with_it() -> None:
-    code = AT_THE_END + "    del window, windows[:]\n    import gc; gc.collect()\n    print('freed', freed)\n"
-    result = run_code(code, QT_QPA_PLATFORM="offscreen", PYDART2_GL="egl")
-    assert result.returncode == 0, result.stderr
-    assert "freed 2" in result.stdout
+    assert "freed by then: 2" in at_the_end(drop=True)

@@ -44,12 +44,12 @@ def application(title: str = "pydart2") -> QApplication:
     QApplication.setAttribute(Qt.AA_UseHighDpiPixmaps)
     _application = QApplication([title])
     _application.setStyle("Fusion")
-    atexit.register(_delete_windows)
     return _application
 
 
+@atexit.register
 def _delete_windows() -> None:
-    """Delete windows while there are the application and all of Python; else its last search for garbage would."""
+    """Delete windows while Qt and all of Python are there, before its last search for garbage does, in any order."""
     for widget in [widget for widget in QApplication.topLevelWidgets() if sip.ispyowned(widget)]:
         sip.delete(widget)
 
