@@ -13,6 +13,14 @@ namespace pydart2 {
 
 namespace {
 
+/// Whether two worlds have as many dofs in each of as many skeletons.
+bool alike(const WorldRecord& a, const WorldRecord& b)
+{
+  return std::equal(
+      a.skeletons.begin(), a.skeletons.end(), b.skeletons.begin(), b.skeletons.end(),
+      [](const SkeletonRef& s, const SkeletonRef& t) { return s->skeleton->getNumDofs() == t->skeleton->getNumDofs(); });
+}
+
 /// The engine's ODE detector shares memory between worlds.
 void check_detector(const WorldRecord& world, std::size_t num_threads)
 {
@@ -36,18 +44,34 @@ void BatchHandle::add(const WorldHandle& world)
 {
   auto& record = world.ref();
   check_detector(*record, num_threads_);
-  if (!worlds_.empty() && pydart2::num_states(*record) != num_states())
-    throw Error(Kind::value, "the worlds of a batch must have the same skeletons");
   worlds_.push_back(record);
   errors_.emplace_back();
+  check_alike();
+}
+
+void BatchHandle::check_alike() const
+{
+  for (std::size_t i = 1; i < worlds_.size(); ++i)
+    if (!alike(*worlds_[0], *worlds_[i]))
+      throw Error(
+          Kind::value,
+          "world " + std::to_string(i) + " of the batch no longer has the skeletons and dofs of world 0; make a new Batch of "
+              "a world that is as you want them all");
+}
+
+void BatchHandle::check_worlds() const
+{
+  for (const auto& world : worlds_)
+    world->check();
+  check_alike();
 }
 
 std::deque<Busy> BatchHandle::claim() const
 {
   std::deque<Busy> claims; // all or none
   for (const auto& world : worlds_) {
+    claims.emplace_back(*world); // refuses one that was destroyed
     check_detector(*world, num_threads_);
-    claims.emplace_back(*world);
   }
   return claims;
 }
@@ -57,12 +81,12 @@ template <class Work>
 void BatchHandle::each_world(Work work)
 {
   parallel_for(worlds_.size(), num_threads_, [&](std::size_t i) {
-    if (!errors_[i].empty())
+    if (has_failed(i))
       return;
     try {
       work(*worlds_[i], i);
     } catch (const Error& error) {
-      errors_[i] = error.what();
+      set_error(static_cast<long>(i), error.what());
     }
   });
 }
@@ -82,6 +106,7 @@ void BatchHandle::rollout(long skeleton, const MatrixIn& actions, long hold, con
   check::finite(VectorIn{actions.data, actions.rows * actions.cols}, "actions");
   if (worlds_.empty())
     return;
+  check_alike();
   const auto& skeletons = worlds_.front()->skeletons;
   const auto chosen = check::index(skeleton, skeletons.size(), "skeleton");
   const auto num_dofs = static_cast<long>(skeletons[chosen]->dofs().size()), size = num_states();
@@ -105,7 +130,6 @@ void BatchHandle::rollout(long skeleton, const MatrixIn& actions, long hold, con
 
 SkeletonRecord& BatchHandle::skeleton(std::size_t world, long index) const
 {
-  worlds_[world]->check();
   const auto& skeletons = worlds_[world]->skeletons;
   return *skeletons[check::index(index, skeletons.size(), "skeleton")];
 }
@@ -117,9 +141,9 @@ long BatchHandle::num_states() const
 
 void BatchHandle::states(Output& into) const
 {
+  check_worlds();
   double* row = into.matrix(num_worlds(), num_states());
   for (const auto& world : worlds_) {
-    world->check();
     write_states(*world, row);
     row += num_states();
   }
@@ -127,17 +151,17 @@ void BatchHandle::states(Output& into) const
 
 void BatchHandle::set_states(const MatrixIn& states)
 {
+  check_worlds();
   check::shape(states, worlds_.size(), static_cast<std::size_t>(num_states()), "states");
   check::finite(VectorIn{states.data, states.rows * states.cols}, "states");
-  for (std::size_t i = 0; i < worlds_.size(); ++i) {
-    worlds_[i]->check();
+  for (std::size_t i = 0; i < worlds_.size(); ++i)
     read_states(*worlds_[i], states.data + static_cast<long>(i) * states.cols);
-  }
 }
 
 template <class Places>
 void BatchHandle::gather(long skeleton, Places places, Output& into) const
 {
+  check_worlds();
   const auto cols = worlds_.empty() ? 0 : static_cast<long>(this->skeleton(0, skeleton).dofs().size());
   double* value = into.matrix(num_worlds(), cols);
   for (std::size_t i = 0; i < worlds_.size(); ++i)
@@ -158,6 +182,7 @@ void BatchHandle::velocities(long skeleton, Output& into) const
 template <class Set>
 void BatchHandle::set_rows(long skeleton, const MatrixIn& rows, const char* what, Set set)
 {
+  check_worlds();
   const auto cols = worlds_.empty() ? 0 : this->skeleton(0, skeleton).dofs().size();
   check::shape(rows, worlds_.size(), cols, what);
   check::finite(VectorIn{rows.data, rows.rows * rows.cols}, what);
@@ -180,8 +205,21 @@ void BatchHandle::set_forces(long skeleton, const MatrixIn& forces)
   set_rows(skeleton, forces, "forces", [](auto& skel, const auto& tau) { skel.setForces(tau); });
 }
 
+std::vector<std::string> BatchHandle::errors() const
+{
+  const std::lock_guard<std::mutex> lock(errors_mutex_);
+  return errors_;
+}
+
+bool BatchHandle::has_failed(std::size_t world) const
+{
+  const std::lock_guard<std::mutex> lock(errors_mutex_);
+  return !errors_[world].empty();
+}
+
 void BatchHandle::set_error(long world, const std::string& error)
 {
+  const std::lock_guard<std::mutex> lock(errors_mutex_);
   errors_[check::index(world, worlds_.size(), "world")] = error;
 }
 

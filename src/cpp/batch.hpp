@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,8 @@ public:
   void set_velocities(long skeleton, const MatrixIn& velocities);
   void set_forces(long skeleton, const MatrixIn& forces);
 
-  /// Why each world has stopped; empty for those that go on.
-  std::vector<std::string> errors() const { return errors_; }
+  /// Why each world has stopped; empty for those that go on. Also while another thread steps the batch.
+  std::vector<std::string> errors() const;
   void set_error(long world, const std::string& error);
 
 private:
@@ -54,10 +55,16 @@ private:
   void set_rows(long skeleton, const MatrixIn& rows, const char* what, Set set);
   SkeletonRecord& skeleton(std::size_t world, long index) const;
   long num_states() const;
+  bool has_failed(std::size_t world) const;
+
+  /// Throws unless all worlds may be used and are alike.
+  void check_worlds() const;
+  void check_alike() const;
 
   std::size_t num_threads_;
   std::vector<WorldRef> worlds_;
   std::vector<std::string> errors_;
+  mutable std::mutex errors_mutex_;
 };
 
 } // namespace pydart2

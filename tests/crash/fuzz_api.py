@@ -105,7 +105,15 @@ def things_of(world: pydart2.World) -> list[Any]:
         for body in skel.bodynodes[:3]:
             found += [body, *body.shapenodes, *(node.shape for node in body.shapenodes)]
     found += [contact for contact in world.collision_result.contacts[:1]]
+    found += things_of_batch()
     return [thing for thing in found if thing is not None]
+
+
+def things_of_batch() -> list[Any]:
+    """A batch, and one of its worlds, which the calls may destroy or make unlike the others."""
+    batch = pydart2.Batch(pydart2.World(0.001, "skel/cubes.skel"), 2, threads=2)
+    world = batch.worlds[1]
+    return [batch, batch, world, world.skeletons[1]]
 
 
 def members(thing: Any) -> list[tuple[str, str]]:

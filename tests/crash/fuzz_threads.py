@@ -25,6 +25,8 @@ from typing import Any
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parents[1]))
 
+import numpy as np
+
 import pydart2
 from crash.fuzz_api import DOCUMENTED, ENVIRONMENT, VALUES, do, members, things_of
 
@@ -43,9 +45,10 @@ BOX = """<robot name="box">
 class Hands:
     """One thread: its worlds, and what it keeps of worlds that may be gone."""
 
-    def __init__(self, seed: int, shared: list[pydart2.World]) -> None:
+    def __init__(self, seed: int, shared: list[pydart2.World], batches: list[pydart2.Batch]) -> None:
         self.random = random.Random(seed)
         self.shared, self.own = shared, [self.new_world()]
+        self.batches = batches
         self.kept: list[Any] = []
         self.calls: Counter[str] = Counter()
         self.troubles: list[str] = []
@@ -74,8 +77,27 @@ class Hands:
         kind, name = self.random.choice(members(thing))
         do(thing, kind, name, self.random.choices(VALUES, k=self.random.randrange(4)))
 
-    def batch(self, world: pydart2.World) -> None:
-        pydart2.Batch(world, 3, threads=2).step(3)
+    def new_batch(self, world: pydart2.World) -> None:
+        batch = pydart2.Batch(world, 3, threads=2)
+        batch.step(3)
+        self.batches[0] = batch
+
+    def use_batch(self, _world: pydart2.World) -> None:
+        """All threads use one batch, and one may blow it up, so that others ask why it failed."""
+        batch = self.batches[0]
+        deeds: list[Callable[[], Any]] = [
+            lambda: batch.step(self.random.randrange(8)),
+            lambda: batch.failed,
+            lambda: batch.failed,
+            lambda: batch.reset(),
+            lambda: setattr(batch, "x", batch.x),
+            lambda: setattr(batch, "dq", 1e250),
+            lambda: batch.contacts,
+            lambda: batch.rollout(None, np.ones((4, batch.skeleton.ndofs)), hold=2),
+            lambda: batch.worlds[1].remove_skeleton(batch.worlds[1].skeletons[0]),
+            lambda: batch.worlds[2].destroy(),
+        ]
+        self.random.choice(deeds)()
 
     def snapshot(self, world: pydart2.World) -> None:
         snapshot = world.snapshot(exact=self.random.random() < 0.5)
@@ -99,7 +121,9 @@ class Hands:
             "snapshot": self.snapshot,
             "clone": lambda world: self.replace(world.clone()),
             "pickle": lambda world: self.replace(pickle.loads(pickle.dumps(world))),
-            "batch": self.batch,
+            "new batch": self.new_batch,
+            "use batch": self.use_batch,
+            "use batch again": self.use_batch,
             "reset": lambda world: world.reset(),
             "new": lambda world: self.replace(self.new_world()),
             "destroy": lambda world: world.destroy() if draw(4) == 0 else None,
@@ -129,7 +153,8 @@ def work(seed: int) -> None:
     logging.disable(logging.CRITICAL)
     warnings.simplefilter("ignore")
     shared = [pydart2.World(0.001, f"skel/{name}.skel") for name in MODELS[:2]]
-    hands = [Hands(seed * THREADS + number, shared) for number in range(THREADS)]
+    batches = [pydart2.Batch(shared[0], 3, threads=2)]
+    hands = [Hands(seed * THREADS + number, shared, batches) for number in range(THREADS)]
     end = time.monotonic() + SECONDS_PER_PROCESS
     threads = [threading.Thread(target=hand.work, args=(end,)) for hand in hands]
     for thread in threads:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -258,3 +259,51 @@ def test_worlds_without_dofs(tmp_path: Path) -> None:
     batch.step(3)
     assert batch.x.shape == batch.q.shape == (2, 0)
     assert batch.rollout(None, np.zeros((4, 0))).states.shape == (2, 5, 0)
+
+
+def uses(batch: Batch) -> dict[str, Callable[[], object]]:
+    """Everything that needs all worlds of a batch of cubes."""
+    zeros = np.zeros(6)
+    return {
+        "step": lambda: batch.step(2),
+        "x": lambda: batch.x,
+        "x =": lambda: setattr(batch, "x", np.zeros((3, 60))),
+        "q": lambda: batch.q,
+        "q =": lambda: setattr(batch, "q", zeros),
+        "dq": lambda: batch.dq,
+        "dq =": lambda: setattr(batch, "dq", zeros),
+        "tau =": lambda: setattr(batch, "tau", zeros),
+        "reset": batch.reset,
+        "rollout": lambda: batch.rollout(None, np.zeros((3, 6))),
+    }
+
+
+@pytest.mark.parametrize("which", [0, 1, 2])
+def test_a_batch_with_a_destroyed_world_refuses_every_use(which: int) -> None:
+    batch = Batch(pydart2.World(0.001, "skel/cubes.skel"), 3, threads=2)
+    batch.worlds[which].destroy()
+    for use in uses(batch).values():
+        with pytest.raises(pydart2.DestroyedError, match=f"world {batch.worlds[which].id} was destroyed"):
+            use()
+
+
+def test_a_batch_is_refused_after_init() -> None:
+    batch = Batch(pydart2.World(0.001, "skel/cubes.skel"), 3, threads=2)
+    pydart2.init(verbose=False)
+    for use in uses(batch).values():
+        with pytest.raises(pydart2.DestroyedError, match="by a later init"):
+            use()
+
+
+@pytest.mark.parametrize("which", [0, 1, 2])
+def test_a_batch_whose_worlds_are_no_longer_alike_has_no_arrays(which: int) -> None:
+    batch = Batch(pydart2.World(0.001, "skel/cubes.skel"), 3, threads=2)
+    batch.worlds[which].skeletons[1].set_root_joint_to_weld()
+    for name in ("x", "x =", "q", "q =", "dq", "dq =", "tau ="):
+        with pytest.raises(ValueError, match=r"no longer has the skeletons and dofs of world 0; make a new Batch"):
+            uses(batch)[name]()
+    forces, part = np.zeros((3, 6)), np.zeros((3, 60))
+    with pytest.raises(ValueError, match="no longer has"):
+        batch._handle.rollout(5, forces, 1, part)
+    batch.step(2)
+    assert (batch.t == 0.002).all()
