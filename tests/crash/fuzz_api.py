@@ -21,6 +21,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -89,12 +90,13 @@ ODD += [
 VALUES: list[Any] = [*NUMBERS, *VECTORS, *ODD]
 
 
-def fresh_world() -> pydart2.World:
-    """A world with most kinds of things in it: boxes, a person, a soft body, all shapes."""
-    world = pydart2.World(0.001, dart_data() / "skel" / "fullbody1.skel", safe=False)
-    for name in ("cubes", "shapes", "softBodies"):
-        pydart2.World(0.001, f"skel/{name}.skel")  # others live beside it
-    return world
+def fresh_worlds() -> list[pydart2.World]:
+    """Worlds with most kinds of things in them: a person, boxes that touch, ball joints, all shapes, soft bodies."""
+    worlds = [pydart2.World(0.001, dart_data() / "skel" / "fullbody1.skel", safe=False)]
+    worlds += [pydart2.World(0.001, f"skel/{name}.skel") for name in ("cubes", "chain", "shapes", "softBodies")]
+    for world in worlds[1:]:
+        world.check_collision()
+    return worlds
 
 
 def things_of(world: pydart2.World) -> list[Any]:
@@ -105,7 +107,6 @@ def things_of(world: pydart2.World) -> list[Any]:
         for body in skel.bodynodes[:3]:
             found += [body, *body.shapenodes, *(node.shape for node in body.shapenodes)]
     found += [contact for contact in world.collision_result.contacts[:1]]
-    found += things_of_batch()
     return [thing for thing in found if thing is not None]
 
 
@@ -165,26 +166,25 @@ class Report:
 
 
 def example(draws: list[tuple[int, int, int, int, int]], tell: Callable[[str], None]) -> tuple[int, int, list[str]]:
-    """Do some calls on a fresh world; how many were accepted and refused, and what went wrong."""
-    world = fresh_world()
+    """Do some calls on fresh worlds; how many were accepted and refused, and what went wrong."""
+    worlds = fresh_worlds()
     troubles: list[str] = []
-    things = things_of(world)
+    groups = [*map(things_of, worlds), things_of_batch()]
     flat = flat_calls()
     accepted = refused = 0
     for which, member, count, first, second in draws:
         arguments = [VALUES[i % len(VALUES)] for i in (first, second, first + second)][: count % 4]
         if which % 10 == 0:
             name, function = flat[member % len(flat)]
-            thing, kind, call = (
-                flat_api,
-                "call",
-                (lambda f=function, a=arguments, n=name: f(*bounded(n[-4:], [world.id, *a]))),
-            )
+            world = worlds[which // 10 % len(worlds)]
+            thing, kind = flat_api, "call"
+            call = partial(function, *bounded(name[-4:], [world.id, *arguments]))
         else:
-            thing = things[which % len(things)]
+            things = groups[which // 10 % len(groups)]
+            thing = things[which // 100 % len(things)]
             choices = members(thing)
             kind, name = choices[member % len(choices)]
-            call = lambda t=thing, k=kind, n=name, a=arguments: do(t, k, n, a)  # noqa: E731
+            call = partial(do, thing, kind, name, arguments)
         text = f"{type(thing).__name__} {kind} {name} {arguments!r}".replace("\n", " ")[:300]
         tell(text)
         start = time.monotonic()
@@ -197,8 +197,9 @@ def example(draws: list[tuple[int, int, int, int, int]], tell: Callable[[str], N
             troubles.append(f"{text}: {error!r:.300}")
         if time.monotonic() - start > MOST_SECONDS:
             troubles.append(f"{text}: took {time.monotonic() - start:.1f} s")
-    with contextlib.suppress(*DOCUMENTED):
-        world.reset()
+    for world in worlds:
+        with contextlib.suppress(*DOCUMENTED):
+            world.reset()
     healthy = pydart2.World(0.001, "skel/cubes.skel")
     healthy.step(2)
     if not np.isfinite(healthy.x).all() or healthy.frame != 2:
