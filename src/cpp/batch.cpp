@@ -46,7 +46,6 @@ void BatchHandle::add(const WorldHandle& world)
   check_detector(*record, num_threads_);
   worlds_.push_back(record);
   errors_.emplace_back();
-  check_alike();
 }
 
 void BatchHandle::check_alike() const

@@ -19,7 +19,7 @@ public:
   /// the threads.
   explicit BatchHandle(long num_threads);
 
-  /// Adds a world, which must have as many dofs as the others.
+  /// Adds a world; arrays need all of them to have the same skeletons.
   void add(const WorldHandle& world);
   int num_worlds() const { return static_cast<int>(worlds_.size()); }
   int num_threads() const { return static_cast<int>(num_threads_); }
