@@ -83,21 +83,37 @@ class Hands:
         self.batches[0] = batch
 
     def use_batch(self, _world: pydart2.World) -> None:
-        """All threads use one batch, and one may blow it up, so that others ask why it failed."""
+        """All threads use one batch."""
         batch = self.batches[0]
         deeds: list[Callable[[], Any]] = [
             lambda: batch.step(self.random.randrange(8)),
             lambda: batch.failed,
-            lambda: batch.failed,
             lambda: batch.reset(),
             lambda: setattr(batch, "x", batch.x),
-            lambda: setattr(batch, "dq", 1e250),
             lambda: batch.contacts,
             lambda: batch.rollout(None, np.ones((4, batch.skeleton.ndofs)), hold=2),
             lambda: batch.worlds[1].remove_skeleton(batch.worlds[1].skeletons[0]),
             lambda: batch.worlds[2].destroy(),
         ]
         self.random.choice(deeds)()
+
+    def blow_up(self, world: pydart2.World) -> None:
+        """A thread asks why worlds failed while they do."""
+        batch = pydart2.Batch(world, 8, threads=2)
+        batch.dq = np.full(batch.skeleton.ndofs, 1e20)
+        done = threading.Event()
+
+        def ask() -> None:
+            while not done.is_set():
+                _ = batch.failed
+
+        asking = threading.Thread(target=ask)
+        asking.start()
+        try:
+            batch.step(3)
+        finally:
+            done.set()
+            asking.join()
 
     def snapshot(self, world: pydart2.World) -> None:
         snapshot = world.snapshot(exact=self.random.random() < 0.5)
@@ -122,6 +138,7 @@ class Hands:
             "clone": lambda world: self.replace(world.clone()),
             "pickle": lambda world: self.replace(pickle.loads(pickle.dumps(world))),
             "new batch": self.new_batch,
+            "blow up": self.blow_up,
             "use batch": self.use_batch,
             "use batch again": self.use_batch,
             "reset": lambda world: world.reset(),
