@@ -2,12 +2,12 @@
 
 #include <dart/collision/bullet/BulletCollisionDetector.hpp>
 #include <dart/collision/dart/DARTCollisionDetector.hpp>
-#include <dart/collision/fcl/FCLCollisionDetector.hpp>
-#include <dart/collision/ode/OdeCollisionDetector.hpp>
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/ConeShape.hpp>
 
 #include "errors.hpp"
+#include "fcl_detector.hpp"
+#include "ode_detector.hpp"
 
 namespace pydart2 {
 
@@ -26,24 +26,43 @@ CollisionDetectorPtr make_detector(const std::string& name)
   if (name == "dart")
     return DARTCollisionDetector::create();
   if (name == "fcl")
-    return FCLCollisionDetector::create();
+    return FclDetector::create();
   if (name == "bullet")
     return BulletCollisionDetector::create();
   if (name == "ode")
-    return OdeCollisionDetector::create();
+    return OdeDetector::create();
   throw Error(Kind::value, "no collision detector '" + name + "'; there are dart, fcl, bullet and ode");
 }
 
 void use_detector(ConstraintSolver& solver, const CollisionDetectorPtr& detector)
 {
+  // Not by setCollisionDetector(), whose group does not follow the skeletons: shapes that change would collide as before.
+  struct Solver : ConstraintSolver
+  {
+    static auto& detector_of(ConstraintSolver& solver) { return solver.*(&Solver::mCollisionDetector); }
+    static auto& group_of(ConstraintSolver& solver) { return solver.*(&Solver::mCollisionGroup); }
+  };
+
   const auto lock = lock_ode();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
-  solver.setCollisionDetector(detector);
-  // The engine adds the shapes of today to the new group; subscribed, it follows the skeletons.
-  auto& group = *solver.getCollisionGroup();
-  group.removeAllShapeFrames();
+  auto& group = Solver::group_of(solver);
+  group = detector->createCollisionGroupAsSharedPtr();
+  Solver::detector_of(solver) = detector;
   for (const auto& skeleton : solver.getSkeletons())
-    group.subscribeTo(skeleton);
+    group->subscribeTo(skeleton);
+}
+
+void replace_detector(ConstraintSolver& solver)
+{
+  const auto lock = lock_ode();
+  const auto old = solver.getCollisionDetector(); // goes before the lock
+  const auto detector = make_detector(old->getType());
+  if (const auto fcl = std::dynamic_pointer_cast<FCLCollisionDetector>(old)) {
+    auto& mine = dynamic_cast<FclDetector&>(*detector);
+    mine.setPrimitiveShapeType(fcl->getPrimitiveShapeType());
+    mine.setContactPointComputationMethod(fcl->getContactPointComputationMethod());
+  }
+  use_detector(solver, detector);
 }
 
 bool has_cones(const dart::simulation::World& world)
@@ -62,7 +81,7 @@ void spare_fcl_cones(dart::simulation::World& world)
   if (solver.getCollisionDetector()->getType() != "fcl" || !has_cones(world))
     return;
   dtwarn << "FCL of this engine puts cones in random places: the world's collision detector is Bullet now.\n";
-  solver.setCollisionDetector(make_detector("bullet"));
+  use_detector(solver, make_detector("bullet"));
 }
 
 void renew_detector(ConstraintSolver& solver)
@@ -75,7 +94,6 @@ void renew_detector(ConstraintSolver& solver)
     // The new tree depends on where the objects are when they are added; a soft one keeps its last two meshes.
     for (int i = 0; i < 2; ++i)
       group->collide(CollisionOption(false, 1));
-    solver.setCollisionDetector(DARTCollisionDetector::create()); // the same detector would be ignored
     use_detector(solver, detector);
   }
 }
@@ -101,10 +119,8 @@ void visit_detector(Archive& archive, ConstraintSolver& solver)
         fcl->setContactPointComputationMethod(
             static_cast<FCLCollisionDetector::ContactPointComputationMethod>(method));
       });
-  if (changed) { // the shapes are made anew
-    use_detector(solver, DARTCollisionDetector::create());
-    use_detector(solver, fcl);
-  }
+  if (changed)
+    use_detector(solver, fcl); // the shapes are made anew
 }
 
 } // namespace pydart2

@@ -27,6 +27,9 @@ dart::collision::CollisionDetectorPtr make_detector(const std::string& name);
 /// Lets a solver find contacts with a detector. Shapes that bodies get or lose later count.
 void use_detector(dart::constraint::ConstraintSolver& solver, const dart::collision::CollisionDetectorPtr& detector);
 
+/// Lets a world that the engine has made find contacts with one of make_detector(), of the same kind.
+void replace_detector(dart::constraint::ConstraintSolver& solver);
+
 /// Whether a world has cones to collide with. FCL needs none: the engine gives them places from unset memory.
 bool has_cones(const dart::simulation::World& world);
 

@@ -14,6 +14,7 @@
 #include "detector.hpp"
 #include "errors.hpp"
 #include "messages.hpp"
+#include "shared_mesh.hpp"
 
 namespace pydart2 {
 
@@ -199,8 +200,10 @@ WorldPtr load_world(const ModelSource& source)
   const auto world = parse([&] { return parse_world(source); });
   if (!world->getGravity().allFinite())
     throw Error(Kind::load, "its gravity is not finite");
-  for (std::size_t i = 0; i < world->getNumSkeletons(); ++i)
+  for (std::size_t i = 0; i < world->getNumSkeletons(); ++i) {
     check_skeleton(*world->getSkeleton(i), source.lenient(), true);
+    share_meshes(*world->getSkeleton(i));
+  }
   spare_fcl_cones(*world);
   return world;
 }
@@ -209,6 +212,7 @@ SkeletonPtr load_skeleton(const ModelSource& source)
 {
   auto skeleton = parse([&] { return parse_skeleton(source); });
   check_skeleton(*skeleton, source.lenient(), false);
+  share_meshes(*skeleton);
   return skeleton;
 }
 

@@ -236,10 +236,7 @@ void WorldHandle::set_collision_detector(const std::string& name)
   auto& record = world();
   if (name == "fcl" && has_cones(*record.world))
     throw Error(Kind::value, "FCL of this engine puts cones in random places: keep another detector, such as bullet");
-  const auto lock = lock_ode();
-  auto& solver = *record.world->getConstraintSolver();
-  solver.clearLastCollisionResult(); // it points to objects of the old detector
-  solver.setCollisionDetector(make_detector(name)); // not use_detector(): its contacts have another order than the engine's
+  use_detector(*record.world->getConstraintSolver(), make_detector(name));
 }
 
 std::string WorldHandle::constraint_solver() const

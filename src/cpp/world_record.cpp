@@ -22,6 +22,7 @@ const DofState& SkeletonRecord::dofs()
 WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string source)
   : id(id), world(std::move(world)), source(std::move(source))
 {
+  replace_detector(*this->world->getConstraintSolver());
   install_solver(*this->world, default_solver());
   for (std::size_t i = 0; i < this->world->getNumSkeletons(); ++i)
     skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i), {}, static_cast<int>(i)}));

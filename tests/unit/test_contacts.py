@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import copy
 import gc
+import os
+import subprocess
+import sys
 import weakref
 from pathlib import Path
 
@@ -197,3 +200,46 @@ def test_repr(world: pydart2.World) -> None:
     assert repr(world.collision_result) == f"[CollisionResult: {n} contacts 2 contacted bodies]"
     contact = world.collision_result.contacts[0]
     assert repr(contact) == f"[Contact {contact.point} {contact.force}]"
+
+
+GROWING = """
+import sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+import numpy as np
+import pydart2
+from physics.models import box, floor, free_body, make_world, save_skeleton
+
+folder, detector, when = Path(sys.argv[2]), int(sys.argv[3]), sys.argv[4]
+world = make_world(folder, floor())
+if when == "before":
+    world.set_collision_detector(detector)
+for i in range(8):
+    text = free_body(f"box{i}", at=(1.5 * i - 6, 0.501, 0, 0, 0, 0), shape=box((1, 1, 1)))
+    world.add_skeleton(save_skeleton(folder, text))
+if when == "after":
+    world.set_collision_detector(detector)
+for change in ([5, 1, 6, 2], [1, 5, 3], [0, 1, 2, 3, 4, 5, 6, 7]):
+    for i in change:
+        shape = world.skeletons[1 + i].bodynodes[0].shapenodes[-1].shape
+        shape.set_size(np.add(shape.size(), [0, 0.1, 0]))
+    world.step()
+    found = set()
+    for contact in world.collision_result.contacts:
+        names = {body.skel.name for body in (contact.bodynode1, contact.bodynode2)}
+        assert names == {"floor", f"box{round((contact.point[0] + 6) / 1.5)}"}, (names, contact)
+        found |= names
+    assert {f"box{i}" for i in change} <= found, found
+"""
+
+
+@pytest.mark.parametrize("detector", [0, 1, 2, 3])
+@pytest.mark.parametrize("when", ["before", "after"])
+def test_contacts_of_shapes_that_grow(tmp_path: Path, detector: int, when: str) -> None:
+    """They are found and name the bodies, be the detector chosen before the bodies come or after. With the engine's own
+    refresh FCL reads memory that was never set, here 0xa5, and ODE an object that is no more."""
+    tests = str(Path(__file__).resolve().parents[1])
+    command = [sys.executable, "-c", GROWING, tests, str(tmp_path), str(detector), when]
+    env = {**os.environ, "GLIBC_TUNABLES": f"glibc.malloc.perturb={0xA5}:glibc.malloc.tcache_count=0"}
+    done = subprocess.run(command, env=env, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr[-2000:]

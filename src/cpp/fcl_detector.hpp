@@ -1,0 +1,28 @@
+#pragma once
+
+#include <dart/collision/fcl/FCLCollisionDetector.hpp>
+
+namespace pydart2 {
+
+/// The engine's detector with FCL, but for two things. Worlds with equal meshes share the trees of their triangles,
+/// which are most of what a robot with meshes takes in memory. And a shape that has changed keeps its body: the
+/// engine's own refresh forgets to say whose shape it is, and the next contact reads memory that was never set.
+class FclDetector : public dart::collision::FCLCollisionDetector
+{
+public:
+  static std::shared_ptr<FclDetector> create();
+
+  std::shared_ptr<dart::collision::CollisionDetector> cloneWithoutCollisionObjects() const override;
+
+protected:
+  std::unique_ptr<dart::collision::CollisionObject> createCollisionObject(
+      const dart::dynamics::ShapeFrame* frame) override;
+  void refreshCollisionObject(dart::collision::CollisionObject* object) override;
+
+private:
+  FclDetector() = default;
+
+  std::shared_ptr<dart::collision::fcl::CollisionGeometry> geometry(const dart::dynamics::ConstShapePtr& shape);
+};
+
+} // namespace pydart2
