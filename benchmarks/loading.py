@@ -7,7 +7,7 @@ import statistics
 import sys
 
 from harness import DEBIAN, OURS, PYPI, competitors, output, rounds, table
-from scenes import scenes
+from scenes import atlas_with_meshes, scenes
 
 import pydart2
 
@@ -17,7 +17,7 @@ IMPORT = "import time; t = time.thread_time(); import {}; print(time.thread_time
 def loading() -> None:
     """Milliseconds and megabytes of each scene."""
     rows: list[list[object]] = []
-    for scene in scenes().values():
+    for scene in [*scenes().values(), *atlas_with_meshes()]:
         found = rounds(competitors(), "load", scene)
         cells: list[object] = [scene.name]
         for player in (OURS, DEBIAN, PYPI):

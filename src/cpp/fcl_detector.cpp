@@ -1,18 +1,23 @@
 #include "fcl_detector.hpp"
 
 #include <dart/collision/fcl/FCLCollisionObject.hpp>
+#include <dart/dynamics/BoxShape.hpp>
+#include <dart/dynamics/CylinderShape.hpp>
+#include <dart/dynamics/EllipsoidShape.hpp>
 #include <dart/dynamics/ShapeFrame.hpp>
+#include <dart/dynamics/SphereShape.hpp>
 #include <map>
 #include <mutex>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "shared_mesh.hpp"
 
 namespace pydart2 {
 
 using namespace dart::collision;
-using dart::dynamics::ConstShapePtr;
-using dart::dynamics::ShapeFrame;
+using namespace dart::dynamics;
 
 namespace {
 
@@ -76,31 +81,76 @@ struct Made
   std::shared_ptr<Geometry> geometry; // goes first
 };
 
-std::shared_ptr<const Tree> make_tree(const ConstShapePtr& mesh)
+std::shared_ptr<const Tree> make_tree(const ConstShapePtr& shape)
 {
   const auto made = std::make_shared<Made>();
-  made->geometry = made->maker.claimFCLCollisionGeometry(mesh);
+  made->geometry = made->maker.claimFCLCollisionGeometry(shape);
   return {made, static_cast<const Tree*>(made->geometry.get())};
 }
 
-/// The tree of a mesh, kept as long as any world uses it.
-std::shared_ptr<const Tree> tree_of(const SharedMesh& mesh)
+/// All that the engine makes a tree of: kind of shape, imported file, sizes.
+using Recipe = std::tuple<std::string, const aiScene*, double, double, double>;
+
+/// The recipe of a shape, and a shape for it that belongs to no world; null for shapes that share no tree. The
+/// detector's type tells what it makes of boxes and round shapes.
+std::pair<Recipe, ConstShapePtr> recipe_of(const Shape& shape, FCLCollisionDetector::PrimitiveShape type)
 {
-  using Key = std::tuple<const aiScene*, double, double, double>;
-  static std::mutex mutex;
-  static std::map<Key, std::weak_ptr<const Tree>> known;
-  const auto& scale = mesh.getScale();
-  const std::lock_guard lock(mutex);
-  auto& entry = known[{mesh.getMesh(), scale.x(), scale.y(), scale.z()}];
-  auto tree = entry.lock();
-  if (tree)
-    return tree;
-  tree = make_tree(mesh.copy());
-  entry = tree;
-  for (auto it = known.begin(); it != known.end();)
-    it = it->second.expired() ? known.erase(it) : std::next(it);
-  return tree;
+  const auto recipe = [&](const Eigen::Vector3d& sizes, const aiScene* scene = nullptr) {
+    return Recipe(shape.getType(), scene, sizes.x(), sizes.y(), sizes.z());
+  };
+  if (const auto* mesh = dynamic_cast<const SharedMesh*>(&shape))
+    return {recipe(mesh->getScale(), mesh->getMesh()), mesh->copy()};
+  if (type != FCLCollisionDetector::MESH)
+    return {};
+  if (const auto* box = dynamic_cast<const BoxShape*>(&shape))
+    return {recipe(box->getSize()), std::make_shared<BoxShape>(box->getSize())};
+  if (const auto* ellipsoid = dynamic_cast<const EllipsoidShape*>(&shape))
+    return {recipe(ellipsoid->getDiameters()), std::make_shared<EllipsoidShape>(ellipsoid->getDiameters())};
+  if (const auto* sphere = dynamic_cast<const SphereShape*>(&shape))
+    return {recipe({sphere->getRadius(), 0.0, 0.0}), std::make_shared<SphereShape>(sphere->getRadius())};
+  if (const auto* cylinder = dynamic_cast<const CylinderShape*>(&shape)) {
+    const double radius = cylinder->getRadius(), height = cylinder->getHeight();
+    return {recipe({radius, height, 0.0}), std::make_shared<CylinderShape>(radius, height)};
+  }
+  return {};
 }
+
+/// The trees of all worlds, each kept as long as one uses it.
+class Forest
+{
+public:
+  std::shared_ptr<const Tree> tree(const Recipe& recipe, const ConstShapePtr& shape)
+  {
+    if (auto found = find(recipe))
+      return found;
+    const auto made = make_tree(shape); // without the lock: another thread may make the same meanwhile
+    const std::lock_guard lock(mutex_);
+    trees_[recipe] = made;
+    if (trees_.size() > clear_above_)
+      clear();
+    return made;
+  }
+
+private:
+  std::shared_ptr<const Tree> find(const Recipe& recipe)
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = trees_.find(recipe);
+    return found == trees_.end() ? nullptr : found->second.lock();
+  }
+
+  /// Forgets those that are gone; not at each new one, which would take long with many.
+  void clear()
+  {
+    for (auto it = trees_.begin(); it != trees_.end();)
+      it = it->second.expired() ? trees_.erase(it) : std::next(it);
+    clear_above_ = 2 * trees_.size() + 100;
+  }
+
+  std::mutex mutex_;
+  std::map<Recipe, std::weak_ptr<const Tree>> trees_;
+  std::size_t clear_above_ = 100;
+};
 
 class Object : public FCLCollisionObject
 {
@@ -141,8 +191,9 @@ void FclDetector::refreshCollisionObject(CollisionObject* object)
 
 std::shared_ptr<Geometry> FclDetector::geometry(const ConstShapePtr& shape)
 {
-  if (const auto* mesh = dynamic_cast<const SharedMesh*>(shape.get()))
-    return std::make_shared<BorrowedTree>(tree_of(*mesh));
+  static Forest forest;
+  if (const auto [recipe, model] = recipe_of(*shape, getPrimitiveShapeType()); model)
+    return std::make_shared<BorrowedTree>(forest.tree(recipe, model));
   return claimFCLCollisionGeometry(shape);
 }
 

@@ -4,9 +4,9 @@
 
 namespace pydart2 {
 
-/// The engine's detector with FCL, but for two things. Worlds with equal meshes share the trees of their triangles,
-/// which are most of what a robot with meshes takes in memory. And a shape that has changed keeps its body: the
-/// engine's own refresh forgets to say whose shape it is, and the next contact reads memory that was never set.
+/// The engine's detector with FCL, but for two things. Equal shapes of all worlds share the tree of their triangles,
+/// which is most of what a robot takes in memory. And a shape that has changed keeps its body: the engine's own refresh
+/// forgets to say whose shape it is, and the next contact reads memory that was never set.
 class FclDetector : public dart::collision::FCLCollisionDetector
 {
 public:
