@@ -65,6 +65,15 @@ class Hands:
         self.keep(world)
         world.remove_skeleton(self.random.choice(world.skeletons))
 
+    def resize(self, world: pydart2.World) -> None:
+        """Shapes of equal sizes share their triangles, whichever thread's they are."""
+        node = self.random.choice(self.random.choice(self.random.choice(world.skeletons).bodynodes).shapenodes)
+        size = self.random.choice([0.1, 0.2, 0.3])
+        if hasattr(node.shape, "set_size"):
+            node.shape.set_size([size] * 3)
+        elif hasattr(node.shape, "set_radius"):
+            node.shape.set_radius(size)
+
     def keep(self, world: pydart2.World) -> None:
         """Handles that outlive their world are used later."""
         self.kept.append(self.random.choice(things_of(world)))
@@ -130,6 +139,7 @@ class Hands:
             "solver": lambda world: world.set_constraint_solver(self.random.choice(["dart", "fast"])),
             "add": lambda world: world.add_skeleton(BOX, safe=False),
             "remove": self.remove_skeleton,
+            "resize": self.resize,
             "weld": lambda world: self.random.choice(world.skeletons).set_root_joint_to_weld(),
             "keep": self.keep,
             "use kept": self.use_kept,
