@@ -5,11 +5,16 @@
 #define PY_ARRAY_UNIQUE_SYMBOL pydart2_ARRAY_API
 #include "assertions.hpp"
 #include "numpy_glue.hpp"
+#include "shared_scenes.hpp"
 %}
 
 %init %{
   import_array();
   pydart2::make_assertions_throw();
+  if (!pydart2::share_scenes()) {
+    PyErr_SetString(PyExc_ImportError, "the engine's libraries do not import meshes as those of DART 6.12 do");
+    return nullptr;
+  }
   pydart2::messages::install();
   PyModule_AddObject(m, "NamedVector", pydart2::named_vector::make_type());
   PyModule_AddObject(m, "ContactRow", pydart2::contact_row::make_type());

@@ -29,12 +29,13 @@ WorldPtr world_from(const std::string& source)
   return load_world(unpacked(source));
 }
 
-/// Each skeleton in the plan: its source, its index in the world that it came with, its root changes.
-constexpr std::size_t texts_per_skeleton = 3;
+/// The plan: the world's source, its detector, and for each skeleton its source, its index in the world that it came
+/// with, its root changes.
+constexpr std::size_t texts_of_world = 2, texts_per_skeleton = 3;
 
 std::vector<std::string> plan_of(const WorldRecord& world)
 {
-  std::vector<std::string> plan{world.source};
+  std::vector<std::string> plan{world.source, world.world->getConstraintSolver()->getCollisionDetector()->getType()};
   for (const auto& item : world.skeletons) {
     std::string changes;
     for (const auto change : item->root_changes)
@@ -50,7 +51,7 @@ void remove_others(WorldRecord& world, const std::vector<std::string>& plan)
   const auto lock = lock_ode();
   for (auto item = world.skeletons.begin(); item != world.skeletons.end();) {
     bool wanted = false;
-    for (std::size_t i = 1; i < plan.size(); i += texts_per_skeleton)
+    for (std::size_t i = texts_of_world; i < plan.size(); i += texts_per_skeleton)
       wanted |= plan[i].empty() && plan[i + 1] == std::to_string((*item)->index_in_source);
     if (!wanted)
       world.world->removeSkeleton((*item)->skeleton);
@@ -68,8 +69,11 @@ void change_root(SkeletonRecord& record, char change)
 void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
 {
   remove_others(world, plan);
+  auto& solver = *world.world->getConstraintSolver();
+  if (plan[1] != solver.getCollisionDetector()->getType())
+    use_detector(solver, make_detector(plan[1])); // before there is anything that another one makes trees of
   std::size_t index = 0;
-  for (std::size_t i = 1; i < plan.size(); i += texts_per_skeleton, ++index) {
+  for (std::size_t i = texts_of_world; i < plan.size(); i += texts_per_skeleton, ++index) {
     if (!plan[i].empty())
       world.add(load_skeleton(unpacked(plan[i])), plan[i]);
     if (index >= world.skeletons.size())
@@ -91,7 +95,7 @@ Blueprint blueprint(WorldRecord& world)
 WorldRef build(const Blueprint& blueprint)
 {
   const auto& plan = blueprint.plan;
-  if (plan.size() % texts_per_skeleton != 1)
+  if (plan.size() < texts_of_world || (plan.size() - texts_of_world) % texts_per_skeleton != 0)
     Archive::refuse();
   const auto world = Manager::instance().add(with_ode([&] { return world_from(plan[0]); }), plan[0]);
   const Busy claim(*world); // another thread's init() would clear it

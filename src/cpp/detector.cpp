@@ -36,7 +36,7 @@ CollisionDetectorPtr make_detector(const std::string& name)
 
 void use_detector(ConstraintSolver& solver, const CollisionDetectorPtr& detector)
 {
-  // Not by setCollisionDetector(), whose group does not follow the skeletons: shapes that change would collide as before.
+  // Not by setCollisionDetector(): shapes that change would collide as before, as its group does not follow skeletons.
   struct Solver : ConstraintSolver
   {
     static auto& detector_of(ConstraintSolver& solver) { return solver.*(&Solver::mCollisionDetector); }

@@ -9,8 +9,8 @@
 
 namespace pydart2 {
 
-/// ODE keeps data per process: to be held where a world with its detector is made, used or freed. No other lock may be
-/// taken while it is held.
+/// ODE keeps data per process: to be held where a world with its detector is made, used or freed. While it is held no
+/// lock may be taken but those of shared_scenes.cpp and fcl_detector.cpp, under which nothing else is taken.
 std::unique_lock<std::recursive_mutex> lock_ode();
 
 /// What `make` makes from a file, which may ask for ODE.
@@ -24,7 +24,8 @@ auto with_ode(Make make)
 /// "dart", "fcl", "bullet" or "ode"; ValueError for any other name.
 dart::collision::CollisionDetectorPtr make_detector(const std::string& name);
 
-/// Lets a solver find contacts with a detector. Shapes that bodies get or lose later count.
+/// Lets a solver find contacts with a detector, in the order of a world that the engine has just loaded. Shapes that
+/// bodies get, lose or change later count.
 void use_detector(dart::constraint::ConstraintSolver& solver, const dart::collision::CollisionDetectorPtr& detector);
 
 /// Lets a world that the engine has made find contacts with one of make_detector(), of the same kind.

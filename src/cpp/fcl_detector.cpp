@@ -4,6 +4,7 @@
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/CylinderShape.hpp>
 #include <dart/dynamics/EllipsoidShape.hpp>
+#include <dart/dynamics/MeshShape.hpp>
 #include <dart/dynamics/ShapeFrame.hpp>
 #include <dart/dynamics/SphereShape.hpp>
 #include <map>
@@ -12,7 +13,7 @@
 #include <tuple>
 #include <utility>
 
-#include "shared_mesh.hpp"
+#include "shared_scenes.hpp"
 
 namespace pydart2 {
 
@@ -98,8 +99,11 @@ std::pair<Recipe, ConstShapePtr> recipe_of(const Shape& shape, FCLCollisionDetec
   const auto recipe = [&](const Eigen::Vector3d& sizes, const aiScene* scene = nullptr) {
     return Recipe(shape.getType(), scene, sizes.x(), sizes.y(), sizes.z());
   };
-  if (const auto* mesh = dynamic_cast<const SharedMesh*>(&shape))
-    return {recipe(mesh->getScale(), mesh->getMesh()), mesh->copy()};
+  if (const auto* mesh = dynamic_cast<const MeshShape*>(&shape)) {
+    if (!take_scene(mesh->getMesh()))
+      return {};
+    return {recipe(mesh->getScale(), mesh->getMesh()), std::make_shared<MeshShape>(mesh->getScale(), mesh->getMesh())};
+  }
   if (type != FCLCollisionDetector::MESH)
     return {};
   if (const auto* box = dynamic_cast<const BoxShape*>(&shape))

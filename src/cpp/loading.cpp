@@ -1,10 +1,7 @@
 #include "loading.hpp"
 
-#include <algorithm>
-#include <assimp/scene.h>
 #include <cmath>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
-#include <dart/dynamics/MeshShape.hpp>
 #include <dart/utils/SkelParser.hpp>
 #include <dart/utils/VskParser.hpp>
 #include <dart/utils/mjcf/MjcfParser.hpp>
@@ -14,7 +11,6 @@
 #include "detector.hpp"
 #include "errors.hpp"
 #include "messages.hpp"
-#include "shared_mesh.hpp"
 
 namespace pydart2 {
 
@@ -47,28 +43,7 @@ auto parse(Parse&& parser)
   throw Error(Kind::load, reason.empty() ? "the engine finds no valid model in it" : "the engine says: " + reason);
 }
 
-/// DART takes each face of a mesh for a triangle, and reads beyond its end where a file has lines and points: they are
-/// taken out. Whether there were any.
-bool drop_lines(const dart::dynamics::Shape& shape)
-{
-  const auto* mesh_shape = dynamic_cast<const dart::dynamics::MeshShape*>(&shape);
-  const aiScene* scene = mesh_shape != nullptr ? mesh_shape->getMesh() : nullptr;
-  bool found = false;
-  for (unsigned i = 0; scene != nullptr && i < scene->mNumMeshes; ++i) {
-    aiMesh& mesh = *scene->mMeshes[i];
-    const auto is_triangle = [&](const aiFace& face) {
-      return face.mNumIndices == 3
-             && std::all_of(face.mIndices, face.mIndices + 3, [&](unsigned v) { return v < mesh.mNumVertices; });
-    };
-    aiFace* faces_end = mesh.mFaces + mesh.mNumFaces;
-    aiFace* end = std::stable_partition(mesh.mFaces, faces_end, is_triangle);
-    found = found || end != faces_end;
-    mesh.mNumFaces = static_cast<unsigned>(end - mesh.mFaces);
-  }
-  return found;
-}
-
-void check_body(const BodyNode& body, bool in_world)
+void check_body(const BodyNode& body)
 {
   const auto refuse = [&](const std::string& what) {
     throw Error(Kind::load, "body '" + body.getName() + "': " + what);
@@ -84,13 +59,9 @@ void check_body(const BodyNode& body, bool in_world)
     refuse("the transform of its joint '" + joint.getName() + "' is not finite");
   if (!joint.getPositions().allFinite() || !joint.getVelocities().allFinite())
     refuse("the position or velocity of its joint '" + joint.getName() + "' is not finite");
-  for (const auto* node : body.getShapeNodes()) {
+  for (const auto* node : body.getShapeNodes())
     if (!node->getRelativeTransform().matrix().allFinite())
       refuse("the transform of its shape '" + node->getName() + "' is not finite");
-    // The parsers of worlds make the collision mesh themselves: too late for those.
-    if (drop_lines(*node->getShape()) && in_world && node->getCollisionAspect() != nullptr)
-      refuse("the mesh of '" + node->getName() + "' has lines or points, which the engine cannot read in a world");
-  }
 }
 
 /// The parsers leave nodes without a shape where a mesh cannot be read, and have said so.
@@ -108,13 +79,13 @@ void remove_empty_shapes(BodyNode& body, bool lenient)
   }
 }
 
-void check_skeleton(Skeleton& skeleton, bool lenient, bool in_world)
+void check_skeleton(Skeleton& skeleton, bool lenient)
 {
   if (skeleton.getNumBodyNodes() == 0)
     throw Error(Kind::load, "skeleton '" + skeleton.getName() + "' has no bodies");
   for (auto* body : skeleton.getBodyNodes()) {
     remove_empty_shapes(*body, lenient);
-    check_body(*body, in_world);
+    check_body(*body);
   }
 }
 
@@ -200,10 +171,8 @@ WorldPtr load_world(const ModelSource& source)
   const auto world = parse([&] { return parse_world(source); });
   if (!world->getGravity().allFinite())
     throw Error(Kind::load, "its gravity is not finite");
-  for (std::size_t i = 0; i < world->getNumSkeletons(); ++i) {
-    check_skeleton(*world->getSkeleton(i), source.lenient(), true);
-    share_meshes(*world->getSkeleton(i));
-  }
+  for (std::size_t i = 0; i < world->getNumSkeletons(); ++i)
+    check_skeleton(*world->getSkeleton(i), source.lenient());
   spare_fcl_cones(*world);
   return world;
 }
@@ -211,8 +180,7 @@ WorldPtr load_world(const ModelSource& source)
 SkeletonPtr load_skeleton(const ModelSource& source)
 {
   auto skeleton = parse([&] { return parse_skeleton(source); });
-  check_skeleton(*skeleton, source.lenient(), false);
-  share_meshes(*skeleton);
+  check_skeleton(*skeleton, source.lenient());
   return skeleton;
 }
 

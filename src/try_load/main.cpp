@@ -12,6 +12,7 @@
 #include "errors.hpp"
 #include "loading.hpp"
 #include "messages.hpp"
+#include "shared_scenes.hpp"
 
 namespace {
 
@@ -44,6 +45,7 @@ int main(int argc, char* argv[])
   pydart2::messages::install();
   const pydart2::messages::Listening listening;
   try {
+    pydart2::share_scenes();
     std::string what;
     std::cin >> what;
     std::cin.get();

@@ -336,14 +336,14 @@ def test_a_mesh_that_is_none(tmp_path: Path) -> None:
 
 
 def test_lines_in_a_mesh(tmp_path: Path) -> None:
-    """The engine would read beyond a line's two corners; they are left out of a skeleton, refused in a world."""
+    """They are left out: the engine would read beyond a line's two corners."""
     write(tmp_path / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 2 3\nf 1 2 3\n")
-    path = write(tmp_path / "model", with_mesh("urdf", "a.obj", "collision"))
-    World(0.001, path).step(3)
     text = with_mesh("skel", "a.obj", "collision").replace("<skel>", "<skel><world name='w'>")
-    # What lies beyond decides whether the helper lives to say so.
-    with pytest.raises(LoadError, match=r"has lines or points, which the engine cannot read in a world|SIGSEGV"):
-        World(0.001, write(tmp_path / "model", text.replace("</skel>", "</world></skel>")))
+    for model in (with_mesh("urdf", "a.obj", "collision"), text.replace("</skel>", "</world></skel>")):
+        world = World(0.001, write(tmp_path / "model", model))
+        world.step(3)
+        shape = world.skeletons[0].bodynodes[0].shapenodes[0].shape
+        assert shape._handle.mesh(0).triangles().tolist() == [[0, 1, 2]]
 
 
 def test_a_mesh_changes_after_a_trial(world: World, tmp_path: Path) -> None:

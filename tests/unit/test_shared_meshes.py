@@ -106,6 +106,18 @@ def test_a_file_that_has_changed_is_not_shared(tmp_path: Path) -> None:
     assert [touches(world) for world in (first, second)] == [False, True]
 
 
+def test_materials_that_have_changed_are_not_shared(tmp_path: Path) -> None:
+    """They may be in a file of their own, which may come later."""
+    path = tmp_path / "board.obj"
+    path.write_text("mtllib board.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n", encoding="ascii")
+    worlds = [ball_world(path)]
+    for color in ("1 0 0", "0 1 0"):
+        path.with_suffix(".mtl").write_text(f"newmtl paint\nKd {color}\n", encoding="ascii")
+        worlds += [ball_world(path), worlds[-1].clone()]
+    found = [tuple(mesh_of(world).diffuse()[:3]) for world in worlds]
+    assert found[1:] == [(1, 0, 0), (1, 0, 0), (0, 1, 0), (0, 1, 0)] and found[0] not in found[1:]
+
+
 def test_scales_are_not_shared(tmp_path: Path) -> None:
     path = ball(tmp_path / "ball.stl")
     worlds = [ball_world(path, scale) for scale in ("1 1 1", "1 1 1.25", "1 1 1")]
