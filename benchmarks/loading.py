@@ -6,26 +6,43 @@ import resource
 import statistics
 import sys
 
-from harness import DEBIAN, OURS, PYPI, competitors, output, rounds, table
+from harness import DEBIAN, OURS, PLAYERS, PYPI, ROOT, ROUNDS, competitors, output, rounds, table
 from scenes import atlas_with_meshes, scenes
 
 import pydart2
 
 IMPORT = "import time; t = time.thread_time(); import {}; print(time.thread_time() - t)"
+CLONES = """
+import json, sys, time
+from ours import Model
+from questions import resident
+world = Model(json.loads(sys.argv[1])).world
+kept = [world.clone()]
+before, start = resident(), time.thread_time()
+kept += [world.clone() for _ in range(40)]
+print((time.thread_time() - start) / 40, (resident() - before) / 40)
+"""
+
+
+def cell(seconds: float, memory: float) -> str:
+    return f"{seconds * 1e3:.3g} ms, {memory / 2**20:.2g} MB"
 
 
 def loading() -> None:
     """Milliseconds and megabytes of each scene."""
+    paths = f"{ROOT}:{PLAYERS}"
     rows: list[list[object]] = []
     for scene in [*scenes().values(), *atlas_with_meshes()]:
         found = rounds(competitors(), "load", scene)
         cells: list[object] = [scene.name]
         for player in (OURS, DEBIAN, PYPI):
             seconds, memory = (statistics.median(r[player][key] for r in found) for key in ("seconds", "bytes"))
-            cells.append(f"{seconds * 1e3:.3g} ms, {memory / 2**20:.2g} MB")
+            cells.append(cell(seconds, memory))
+        clones = [output(sys.executable, "-c", CLONES, scene.dump(), PYTHONPATH=paths).split() for _ in range(ROUNDS)]
+        cells.append(cell(*(statistics.median(map(float, figures)) for figures in zip(*clones, strict=True))))
         rows.append(cells)
-    print("## Loading\n\nTime to load once more, and memory of each further world.\n")
-    print(table(["scene", OURS, DEBIAN, PYPI], rows))
+    print("## Loading\n\nTime to load once more, and memory of each further world; the same of clones.\n")
+    print(table(["scene", OURS, DEBIAN, PYPI, f"{OURS}, clone"], rows))
 
 
 def importing() -> None:
