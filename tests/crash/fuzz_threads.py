@@ -216,7 +216,8 @@ def run(seconds: float, first: int) -> tuple[Counter[str], list[str]]:
             else:
                 calls[rest] += int(word)
         if done.returncode != 0:
-            troubles.append(f"seed {seed}, code {done.returncode}:\n{done.stderr[-3000:]}")
+            reason, stacks = done.stderr[:1000], done.stderr[1000:][-3000:]
+            troubles.append(f"seed {seed}, code {done.returncode}:\n{reason}\n...\n{stacks}")
     return calls, troubles
 
 
