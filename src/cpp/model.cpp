@@ -55,6 +55,9 @@ void visit_skeleton(Archive& archive, Skeleton& skeleton)
   archive.same(
       std::to_string(skeleton.getNumBodyNodes()) + " bodies, " + std::to_string(skeleton.getNumDofs()) + " dofs, "
       + std::to_string(skeleton.getNumMarkers()) + " markers");
+  for (const std::size_t number : {skeleton.getNumBodyNodes(), skeleton.getNumDofs(), skeleton.getNumMarkers()})
+    if (archive.count(number) != number) // the numbers are of another skeleton than the texts
+      Archive::refuse();
   archive.text([&] { return skeleton.getName(); }, [&](const auto& name) { skeleton.setName(name); });
   archive.number([&] { return double(skeleton.isMobile()); }, [&](double on) { skeleton.setMobile(on != 0.0); });
   archive.number(

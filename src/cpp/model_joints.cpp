@@ -6,6 +6,7 @@
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/ScrewJoint.hpp>
 #include <dart/dynamics/UniversalJoint.hpp>
+#include <limits>
 
 namespace pydart2 {
 
@@ -15,10 +16,13 @@ namespace {
 
 using Dof = DegreeOfFreedom;
 
+constexpr double any = -std::numeric_limits<double>::infinity();
+
 constexpr struct
 {
   double (Dof::*get)() const;
   void (Dof::*set)(double);
+  double least = any;
 } dof_numbers[] = {
     {&Dof::getPositionLowerLimit, &Dof::setPositionLowerLimit},
     {&Dof::getPositionUpperLimit, &Dof::setPositionUpperLimit},
@@ -28,10 +32,10 @@ constexpr struct
     {&Dof::getInitialVelocity, &Dof::setInitialVelocity},
     {&Dof::getForceLowerLimit, &Dof::setForceLowerLimit},
     {&Dof::getForceUpperLimit, &Dof::setForceUpperLimit},
-    {&Dof::getSpringStiffness, &Dof::setSpringStiffness},
+    {&Dof::getSpringStiffness, &Dof::setSpringStiffness, 0.0},
     {&Dof::getRestPosition, &Dof::setRestPosition},
-    {&Dof::getDampingCoefficient, &Dof::setDampingCoefficient},
-    {&Dof::getCoulombFriction, &Dof::setCoulombFriction},
+    {&Dof::getDampingCoefficient, &Dof::setDampingCoefficient, 0.0},
+    {&Dof::getCoulombFriction, &Dof::setCoulombFriction, 0.0},
 };
 
 Eigen::VectorXd rows_of(const Eigen::Isometry3d& transform)
@@ -104,8 +108,14 @@ void visit_joint(Archive& archive, Skeleton& skeleton, Joint& joint)
       [&] { return double(joint.areLimitsEnforced()); }, [&](double on) { joint.setLimitEnforcement(on != 0.0); });
   for (std::size_t i = 0; i < joint.getNumDofs(); ++i) {
     auto& dof = *joint.getDof(i);
-    for (const auto& [get, set] : dof_numbers)
-      archive.number([&, get = get] { return (dof.*get)(); }, [&, set = set](double value) { (dof.*set)(value); });
+    for (const auto& number : dof_numbers)
+      archive.number(
+          [&] { return (dof.*number.get)(); },
+          [&](double value) {
+            if (!(value >= number.least)) // the engine's assertion would end the process
+              Archive::refuse();
+            (dof.*number.set)(value);
+          });
     archive.number([&] { return double(dof.isNamePreserved()); }, [&](double on) { dof.preserveName(on != 0.0); });
   }
 }

@@ -5,6 +5,8 @@ from __future__ import annotations
 import copy
 import itertools
 import pickle
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -339,3 +341,40 @@ def test_damaged_blueprints(tmp_path: Path, data: dict[str, list[str]]) -> None:
         type(handle).rebuild(*parts.values())
     with pytest.raises(TypeError, match="needs a list of str"):
         type(handle).rebuild([1], *itertools.islice(parts.values(), 1, None))  # type: ignore[list-item]
+
+
+DAMAGE = """
+import contextlib, logging, sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+import pydart2
+from unit.test_clones import everything
+
+logging.disable(logging.CRITICAL)
+handle = everything(Path(sys.argv[2]))._handle
+plan, texts, numbers, state = handle.plan(), handle.model_texts(), handle.model_numbers(), handle.snapshot(False)
+for value in (-1.0, float("nan"), 1e300):
+    for i in range(len(numbers)):
+        damaged = numbers.copy()
+        damaged[i] = value
+        print(i, value, flush=True)
+        with contextlib.suppress(pydart2.PydartError, ValueError):
+            type(handle).rebuild(plan, texts, damaged, state).step(1)
+"""
+
+
+def test_damaged_numbers(tmp_path: Path) -> None:
+    """Whichever of them is not what it was, the process lives."""
+    command = [sys.executable, "-c", DAMAGE, str(Path(__file__).resolve().parents[1]), str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, (done.stdout.splitlines()[-1:], done.stderr[-1000:])
+
+
+def test_a_blueprint_whose_numbers_are_of_another_model(tmp_path: Path) -> None:
+    """As when another thread changes the world while it is read."""
+    world = make_world(tmp_path, arm(), floor())
+    handle = world._handle
+    plan, texts, state = handle.plan(), handle.model_texts(), handle.snapshot(False)
+    world.skeletons[0].set_root_joint_to_weld()
+    with pytest.raises(ValueError, match="of another model"):
+        type(handle).rebuild(plan, texts, handle.model_numbers(), state)
