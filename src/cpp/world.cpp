@@ -138,7 +138,6 @@ void WorldHandle::remove_skeleton(long index)
   }
   const auto lock = lock_ode();
   solver.clearLastCollisionResult(); // it points to collision objects that go
-  solver.getCollisionGroup()->removeShapeFramesOf(skeleton.get()); // the engine only does where it subscribed to it
   record.world->removeSkeleton(skeleton);
   record.removals += ++record.skeletons[i]->structure; // parts of a skeleton without a world are refused
   record.skeletons.erase(record.skeletons.begin() + static_cast<long>(i));
