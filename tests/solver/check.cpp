@@ -1,4 +1,5 @@
-// Steps scenes with the engine's own constraint solver and with the fast one, and compares them bit by bit.
+// Steps scenes as the engine does and as this package does, with its fast constraint solver and its collision detectors,
+// and compares them bit by bit.
 //
 //   check STEPS MODEL DETECTOR VARIATION [DETECTOR VARIATION ...]
 //
@@ -23,6 +24,7 @@
 #include <iostream>
 
 #include "constraint_matrix.hpp"
+#include "detector.hpp"
 #include "fast_solver.hpp"
 #include "scenes.hpp"
 
@@ -161,6 +163,9 @@ void run(int steps, const std::string& model, const std::string& detector, const
   const auto twin = make_scene(model, detector, variation);
   const auto ours = make_scene(model, detector, variation);
   const auto compared = make_scene(model, detector, variation);
+  for (const auto& world : {theirs, twin, ours, compared})
+    pydart2::spare_fcl_cones(*world); // as in every world of the package
+  pydart2::replace_detector(*ours->getConstraintSolver());
   pydart2::install_solver(*ours, pydart2::Solver::fast);
   compared->setConstraintSolver(std::make_unique<ComparingSolver>(report));
   for (report.steps = 0; report.steps < steps; ++report.steps) {

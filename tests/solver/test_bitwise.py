@@ -1,5 +1,7 @@
 """The fast constraint solver gives the bits of the engine's own: states, contact forces, constraint matrices.
 
+So do the package's collision detectors, with which it steps here; the engine steps with its own.
+
 In all models that the engine loads, with its four collision detectors, as the models are and with joints, contacts and
 constraints of all kinds (scenes.hpp).  `make test-solver` runs the long form.
 """
