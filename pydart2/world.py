@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,14 +32,14 @@ def create_world(step: float, skel_path: str | os.PathLike[str] | None = None) -
 
 def _rebuild(
     cls: type[World],
-    blueprint: tuple[list[str], list[str], NDArray[np.float64], NDArray[np.float64]],
+    blueprint: tuple[Any, ...],
     contacts: NDArray[np.float64],
     recording_limit: int | None,
     classes: list[type[Skeleton]],
 ) -> World:
     """The world of World.__reduce__, in its own or another process."""
     world = cls.__new__(cls)
-    world._handle = WorldHandle.rebuild(*blueprint)
+    world._handle = WorldHandle.rebuild(blueprint)
     world._begin()
     world.skeletons = [skeleton_class._of_world(world, i) for i, skeleton_class in enumerate(classes)]
     world.collision_result = CollisionResult.from_rows(world, contacts)
@@ -343,9 +343,8 @@ class World:
         return self.clone()
 
     def __reduce__(self) -> tuple[object, ...]:
-        handle = self._handle
-        blueprint = (handle.plan(), handle.model_texts(), handle.model_numbers(), handle.snapshot(False))
-        recording_limit = handle.recording_limit() if self.is_recording() else None
+        blueprint = self._handle.blueprint()
+        recording_limit = self._handle.recording_limit() if self.is_recording() else None
         classes = [type(skel) for skel in self.skeletons]
         made_anew = ("_handle", "_step", "id", "recording", "collision_result", "collision_filter")
         state = {name: value for name, value in self.__dict__.items() if name not in made_anew}

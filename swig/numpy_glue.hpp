@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "blueprint.hpp"
 #include "contact_row.hpp"
 #include "errors.hpp"
 #include "messages.hpp"
@@ -254,11 +255,12 @@ template <class Matrix>
 PyObject* to_numpy(const Matrix& matrix)
 {
   constexpr int rows = Matrix::RowsAtCompileTime, cols = Matrix::ColsAtCompileTime;
-  npy_intp shape[] = {rows, cols};
+  npy_intp shape[] = {matrix.rows(), matrix.cols()};
   PyObject* array = PyArray_SimpleNew(cols == 1 ? 1 : 2, shape, NPY_DOUBLE);
   if (array != nullptr) {
     using Rows = Eigen::Matrix<double, rows, cols, cols == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-    Eigen::Map<Rows>(static_cast<double*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))) = matrix;
+    auto* values = static_cast<double*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)));
+    Eigen::Map<Rows>(values, matrix.rows(), matrix.cols()) = matrix;
   }
   return array;
 }
@@ -294,6 +296,38 @@ inline bool read_list(PyObject* object, const char* what, std::vector<std::strin
   if (!fine)
     PyErr_Format(PyExc_TypeError, "%s needs a list of str, got %.200R", what, object);
   return fine;
+}
+
+/// (plan, texts, numbers, state): two lists of str, two ndarrays.
+inline PyObject* to_tuple(const Blueprint& blueprint)
+{
+  const auto numpy = [](const std::vector<double>& numbers) {
+    return to_numpy(VectorIn{numbers.data(), static_cast<long>(numbers.size())}.eigen());
+  };
+  return Py_BuildValue(
+      "NNNN", to_list(blueprint.plan), to_list(blueprint.texts), numpy(blueprint.numbers), numpy(blueprint.state));
+}
+
+/// A tuple as to_tuple() makes it. False with an error set.
+inline bool read_blueprint(PyObject* object, const char* what, Blueprint& blueprint)
+{
+  const auto read_numbers = [](PyObject* passed, const char* name, std::vector<double>& numbers) {
+    PyArrayObject* owner = nullptr;
+    VectorIn vector;
+    const bool fine = read_vector(passed, name, owner, vector);
+    if (fine)
+      numbers.assign(vector.data, vector.data + vector.size);
+    Py_XDECREF(owner);
+    return fine;
+  };
+  if (!PyTuple_Check(object) || PyTuple_GET_SIZE(object) != 4) {
+    PyErr_Format(PyExc_TypeError, "%s needs a tuple of plan, texts, numbers and state, got %.200R", what, object);
+    return false;
+  }
+  return read_list(PyTuple_GET_ITEM(object, 0), "plan", blueprint.plan)
+         && read_list(PyTuple_GET_ITEM(object, 1), "texts", blueprint.texts)
+         && read_numbers(PyTuple_GET_ITEM(object, 2), "numbers", blueprint.numbers)
+         && read_numbers(PyTuple_GET_ITEM(object, 3), "state", blueprint.state);
 }
 
 /// Python's bool and int, NumPy's bool and integers. False with TypeError set.

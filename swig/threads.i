@@ -22,7 +22,6 @@
 %without_lock(pydart2::WorldHandle::load, )
 %without_lock(pydart2::WorldHandle::rebuild, )
 %long_call(pydart2::WorldHandle::add_skeleton)
-%long_call(pydart2::WorldHandle::clone)
 %long_call(pydart2::WorldHandle::step)
 %long_call(pydart2::WorldHandle::check_collision)
 %long_call(pydart2::BatchHandle::step)

@@ -3,6 +3,7 @@
 
 namespace pydart2 {
 class Output;
+struct Blueprint;
 struct VectorIn;
 struct MatrixIn;
 struct MatrixOut;
@@ -66,6 +67,13 @@ class TYPE;
   $1 = &texts;
 }
 %typemap(out) std::vector<std::string> "$result = pydart2::python::to_list($1);"
+
+%feature("novaluewrapper") pydart2::Blueprint;
+%typemap(in) const pydart2::Blueprint& (pydart2::Blueprint blueprint) {
+  if (!pydart2::python::read_blueprint($input, "$1_name", blueprint)) SWIG_fail;
+  $1 = &blueprint;
+}
+%typemap(out) pydart2::Blueprint "$result = pydart2::python::to_tuple($1);"
 
 %typemap(in) bool "if (!pydart2::python::read_bool($input, \"$1_name\", $1)) SWIG_fail;"
 %typemap(in) long "if (!pydart2::python::read_long($input, \"$1_name\", $1)) SWIG_fail;"

@@ -23,6 +23,7 @@ RETURNS = {
     "std::string": "str",
     "std::vector<std::string>": "list[str]",
     "Vector6d": "NDArray[np.float64]",
+    "Blueprint": "tuple[Any, ...]",
 }
 ARGUMENTS = {
     "bool": "bool",
@@ -30,6 +31,7 @@ ARGUMENTS = {
     "double": "float",
     "const std::string&": "str",
     "const std::vector<std::string>&": "list[str]",
+    "const Blueprint&": "tuple[Any, ...]",
 }
 IDS = re.compile(r"(w|sk|b|dof|j|m|s)id\d?|i|index|ndofs|nout|\w+_type")
 FLAT = {"verbose=True": "verbose: bool = True", "tuple of int": "tuple[int, ...]"}

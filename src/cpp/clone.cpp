@@ -85,7 +85,7 @@ void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
 
 } // namespace
 
-Blueprint blueprint(WorldRecord& world)
+Blueprint blueprint_of(WorldRecord& world)
 {
   Archive model;
   visit_model(model, world);
@@ -104,7 +104,7 @@ WorldRef build(const Blueprint& blueprint)
   visit_model(model, *world);
   model.finish();
   restore_state(*world, blueprint.state);
-  const auto made = pydart2::blueprint(*world);
+  const auto made = blueprint_of(*world);
   if (made.texts != blueprint.texts || made.numbers != blueprint.numbers || made.state != blueprint.state)
     throw Error(Kind::engine, "the world cannot be made again: the engine does not take some of its numbers back");
   return world;

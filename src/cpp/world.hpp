@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "blueprint.hpp"
 #include "bodynode.hpp"
 #include "model_source.hpp"
 #include "skeleton.hpp"
@@ -88,19 +89,13 @@ public:
   void snapshot(bool exact, Output& out);
   void restore(const VectorIn& snapshot);
 
-  /// A world of its own that is equal in everything but its recording, which is off.
-  WorldHandle clone() const;
-
-  /// What clone() goes through, for other processes: what the world was loaded from and how its trees have changed; all
-  /// else that a user may have changed; and a snapshot.
-  std::vector<std::string> plan() const;
+  /// All that a user may have changed and a step does not.
   std::vector<std::string> model_texts() const;
   void model_numbers(Output& out) const;
-  static WorldHandle rebuild(
-      const std::vector<std::string>& plan,
-      const std::vector<std::string>& model_texts,
-      const VectorIn& model_numbers,
-      const VectorIn& snapshot);
+
+  /// What rebuild() makes a world of its own from that is equal in everything but its recording, which is off.
+  Blueprint blueprint() const;
+  static WorldHandle rebuild(const Blueprint& blueprint);
 
   bool is_recording() const;
   void set_recording(bool enable);

@@ -17,11 +17,6 @@ void write(const std::vector<double>& numbers, Output& out)
   std::copy(numbers.begin(), numbers.end(), out.vector(static_cast<long>(numbers.size())));
 }
 
-std::vector<double> numbers(const VectorIn& in)
-{
-  return {in.data, in.data + in.size};
-}
-
 } // namespace
 
 void WorldHandle::snapshot(bool exact, Output& out)
@@ -34,12 +29,7 @@ void WorldHandle::snapshot(bool exact, Output& out)
 
 void WorldHandle::restore(const VectorIn& snapshot)
 {
-  restore_state(world(), numbers(snapshot));
-}
-
-std::vector<std::string> WorldHandle::plan() const
-{
-  return blueprint(world()).plan;
+  restore_state(world(), {snapshot.data, snapshot.data + snapshot.size});
 }
 
 std::vector<std::string> WorldHandle::model_texts() const
@@ -56,18 +46,14 @@ void WorldHandle::model_numbers(Output& out) const
   write(archive.numbers, out);
 }
 
-WorldHandle WorldHandle::clone() const
+Blueprint WorldHandle::blueprint() const
 {
-  return WorldHandle(build(blueprint(*record_)));
+  return blueprint_of(world());
 }
 
-WorldHandle WorldHandle::rebuild(
-    const std::vector<std::string>& plan,
-    const std::vector<std::string>& model_texts,
-    const VectorIn& model_numbers,
-    const VectorIn& snapshot)
+WorldHandle WorldHandle::rebuild(const Blueprint& blueprint)
 {
-  return WorldHandle(build({plan, model_texts, numbers(model_numbers), numbers(snapshot)}));
+  return WorldHandle(build(blueprint));
 }
 
 } // namespace pydart2

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import itertools
 import pickle
 import subprocess
 import sys
@@ -73,7 +72,7 @@ def copies(world: pydart2.World) -> list[pydart2.World]:
 @pytest.mark.parametrize("model", MODELS)
 def test_clones_go_on_as_the_original(model: str, detector: int) -> None:
     world = moving(model, detector)
-    clones = [world.clone(exact=True), pickle.loads(pickle.dumps(world)), world._handle.clone()]
+    clones = [world.clone(exact=True), pickle.loads(pickle.dumps(world))]
     for item in (world, *clones):
         item.step(300)
     assert len({item.states(None).tobytes() for item in (world, *clones)}) == 1
@@ -330,17 +329,16 @@ def test_clones_share_nothing(tmp_path: Path) -> None:
 )
 def test_damaged_blueprints(tmp_path: Path, data: dict[str, list[str]]) -> None:
     handle = make_world(tmp_path, arm())._handle
-    parts = {
-        "plan": handle.plan(),
-        "texts": handle.model_texts(),
-        "numbers": handle.model_numbers(),
-        "state": handle.snapshot(False),
-    }
-    parts.update(data)  # type: ignore[arg-type]
+    blueprint = handle.blueprint()
+    parts = dict(zip(("plan", "texts", "numbers", "state"), blueprint, strict=True)) | data
     with pytest.raises(ValueError, match=r"of another model|no collision detector 'x'"):
-        type(handle).rebuild(*parts.values())
-    with pytest.raises(TypeError, match="needs a list of str"):
-        type(handle).rebuild([1], *itertools.islice(parts.values(), 1, None))  # type: ignore[list-item]
+        type(handle).rebuild(tuple(parts.values()))
+    with pytest.raises(TypeError, match="plan needs a list of str"):
+        type(handle).rebuild(([1], *blueprint[1:]))
+    with pytest.raises(TypeError, match="state needs numbers"):
+        type(handle).rebuild((*blueprint[:3], "x"))
+    with pytest.raises(TypeError, match="needs a tuple of plan, texts, numbers and state"):
+        type(handle).rebuild(blueprint[:3])
 
 
 DAMAGE = """
@@ -352,14 +350,14 @@ from unit.test_clones import everything
 
 logging.disable(logging.CRITICAL)
 handle = everything(Path(sys.argv[2]))._handle
-plan, texts, numbers, state = handle.plan(), handle.model_texts(), handle.model_numbers(), handle.snapshot(False)
+plan, texts, numbers, state = handle.blueprint()
 for value in (-1.0, float("nan"), 1e300):
     for i in range(len(numbers)):
         damaged = numbers.copy()
         damaged[i] = value
         print(i, value, flush=True)
         with contextlib.suppress(pydart2.PydartError, ValueError):
-            type(handle).rebuild(plan, texts, damaged, state).step(1)
+            type(handle).rebuild((plan, texts, damaged, state)).step(1)
 """
 
 
@@ -371,10 +369,9 @@ def test_damaged_numbers(tmp_path: Path) -> None:
 
 
 def test_a_blueprint_whose_numbers_are_of_another_model(tmp_path: Path) -> None:
-    """As when another thread changes the world while it is read."""
     world = make_world(tmp_path, arm(), floor())
     handle = world._handle
-    plan, texts, state = handle.plan(), handle.model_texts(), handle.snapshot(False)
+    plan, texts, _, state = handle.blueprint()
     world.skeletons[0].set_root_joint_to_weld()
     with pytest.raises(ValueError, match="of another model"):
-        type(handle).rebuild(plan, texts, handle.model_numbers(), state)
+        type(handle).rebuild((plan, texts, handle.model_numbers(), state))

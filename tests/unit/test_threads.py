@@ -44,7 +44,7 @@ USES: dict[str, Callable[[pydart2.World], object]] = {
     "write q": lambda w: setattr(w.skeletons[0], "q", [0, 0]),
     "read a body": lambda w: w.skeletons[0].bodynodes[0].T,
     "snapshot": lambda w: w.snapshot(),
-    "clone": lambda w: w._handle.clone(),
+    "clone": lambda w: w.clone(),
     "add": lambda w: w.add_skeleton(pydart2.data_path("skel/ground.skel")),
     "remove": lambda w: w.remove_skeleton(w.skeletons[0]),
     "change the detector": lambda w: w.set_collision_detector(1),
