@@ -376,7 +376,7 @@ class World:
         return self.collision_filter
 
     def set_collision_detector(self, detector_type: int) -> None:
-        """Set one of the `*_COLLISION_DETECTOR`, 0 to 3; ValueError for any other, and for FCL with cones."""
+        """Set one of the `*_COLLISION_DETECTOR`, 0 to 3; ValueError for any other."""
         if detector_type not in range(len(_DETECTORS)):
             raise ValueError(f"no collision detector {detector_type!r}; they are 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE)")
         self._handle.set_collision_detector(_DETECTORS[detector_type])

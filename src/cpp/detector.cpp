@@ -2,8 +2,6 @@
 
 #include <dart/collision/bullet/BulletCollisionDetector.hpp>
 #include <dart/collision/dart/DARTCollisionDetector.hpp>
-#include <dart/dynamics/BodyNode.hpp>
-#include <dart/dynamics/ConeShape.hpp>
 
 #include "errors.hpp"
 #include "fcl_detector.hpp"
@@ -63,25 +61,6 @@ void replace_detector(ConstraintSolver& solver)
     mine.setContactPointComputationMethod(fcl->getContactPointComputationMethod());
   }
   use_detector(solver, detector);
-}
-
-bool has_cones(const dart::simulation::World& world)
-{
-  for (std::size_t i = 0; i < world.getNumSkeletons(); ++i)
-    for (const auto* body : world.getSkeleton(i)->getBodyNodes())
-      for (const auto* node : body->getShapeNodesWith<dart::dynamics::CollisionAspect>())
-        if (node->getShape()->is<dart::dynamics::ConeShape>())
-          return true;
-  return false;
-}
-
-void spare_fcl_cones(dart::simulation::World& world)
-{
-  auto& solver = *world.getConstraintSolver();
-  if (solver.getCollisionDetector()->getType() != "fcl" || !has_cones(world))
-    return;
-  dtwarn << "FCL of this engine puts cones in random places: the world's collision detector is Bullet now.\n";
-  use_detector(solver, make_detector("bullet"));
 }
 
 void renew_detector(ConstraintSolver& solver)

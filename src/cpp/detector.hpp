@@ -31,12 +31,6 @@ void use_detector(dart::constraint::ConstraintSolver& solver, const dart::collis
 /// Lets a world that the engine has made find contacts with one of make_detector(), of the same kind.
 void replace_detector(dart::constraint::ConstraintSolver& solver);
 
-/// Whether a world has cones to collide with. FCL needs none: the engine gives them places from unset memory.
-bool has_cones(const dart::simulation::World& world);
-
-/// Where FCL would have to deal with cones Bullet takes over, and says so.
-void spare_fcl_cones(dart::simulation::World& world);
-
 /// The same detector without memory of the steps before.
 void renew_detector(dart::constraint::ConstraintSolver& solver);
 

@@ -2,11 +2,13 @@
 
 #include <dart/collision/fcl/FCLCollisionObject.hpp>
 #include <dart/dynamics/BoxShape.hpp>
+#include <dart/dynamics/ConeShape.hpp>
 #include <dart/dynamics/CylinderShape.hpp>
 #include <dart/dynamics/EllipsoidShape.hpp>
 #include <dart/dynamics/MeshShape.hpp>
 #include <dart/dynamics/ShapeFrame.hpp>
 #include <dart/dynamics/SphereShape.hpp>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <map>
 #include <mutex>
 #include <string>
@@ -82,8 +84,19 @@ struct Made
   std::shared_ptr<Geometry> geometry; // goes first
 };
 
+/// With as many triangles as the engine's cones have.
+std::shared_ptr<const Tree> make_cone(const ConeShape& shape)
+{
+  auto tree = std::make_shared<Tree>();
+  const ::fcl::Cone<double> cone(shape.getRadius(), shape.getHeight());
+  ::fcl::generateBVHModel(*tree, cone, ::fcl::Transform3<double>::Identity(), 16, 16);
+  return tree;
+}
+
 std::shared_ptr<const Tree> make_tree(const ConstShapePtr& shape)
 {
+  if (const auto* cone = dynamic_cast<const ConeShape*>(shape.get()))
+    return make_cone(*cone);
   const auto made = std::make_shared<Made>();
   made->geometry = made->maker.claimFCLCollisionGeometry(shape);
   return {made, static_cast<const Tree*>(made->geometry.get())};
@@ -115,6 +128,10 @@ std::pair<Recipe, ConstShapePtr> recipe_of(const Shape& shape, FCLCollisionDetec
   if (const auto* cylinder = dynamic_cast<const CylinderShape*>(&shape)) {
     const double radius = cylinder->getRadius(), height = cylinder->getHeight();
     return {recipe({radius, height, 0.0}), std::make_shared<CylinderShape>(radius, height)};
+  }
+  if (const auto* cone = dynamic_cast<const ConeShape*>(&shape)) {
+    const double radius = cone->getRadius(), height = cone->getHeight();
+    return {recipe({radius, height, 0.0}), std::make_shared<ConeShape>(radius, height)};
   }
   return {};
 }

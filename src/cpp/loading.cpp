@@ -8,7 +8,6 @@
 #include <dart/utils/sdf/SdfParser.hpp>
 #include <dart/utils/urdf/DartLoader.hpp>
 
-#include "detector.hpp"
 #include "errors.hpp"
 #include "messages.hpp"
 
@@ -173,7 +172,6 @@ WorldPtr load_world(const ModelSource& source)
     throw Error(Kind::load, "its gravity is not finite");
   for (std::size_t i = 0; i < world->getNumSkeletons(); ++i)
     check_skeleton(*world->getSkeleton(i), source.lenient());
-  spare_fcl_cones(*world);
   return world;
 }
 

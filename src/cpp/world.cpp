@@ -232,10 +232,7 @@ std::string WorldHandle::collision_detector() const
 
 void WorldHandle::set_collision_detector(const std::string& name)
 {
-  auto& record = world();
-  if (name == "fcl" && has_cones(*record.world))
-    throw Error(Kind::value, "FCL of this engine puts cones in random places: keep another detector, such as bullet");
-  use_detector(*record.world->getConstraintSolver(), make_detector(name));
+  use_detector(*world().world->getConstraintSolver(), make_detector(name));
 }
 
 std::string WorldHandle::constraint_solver() const

@@ -42,7 +42,6 @@ void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::st
 {
   const auto lock = lock_ode();
   world->addSkeleton(skeleton);
-  spare_fcl_cones(*world);
   skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton, source}));
 }
 

@@ -55,7 +55,7 @@ int main(int argc, char* argv[])
       world = pydart2::load_world(source);
     else
       world->addSkeleton(pydart2::load_skeleton(source));
-    pydart2::spare_fcl_cones(*world);
+    pydart2::replace_detector(*world->getConstraintSolver());
     use(*world);
   } catch (const std::exception& error) {
     std::fputs(error.what(), stdout);

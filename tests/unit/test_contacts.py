@@ -243,3 +243,24 @@ def test_contacts_of_shapes_that_grow(tmp_path: Path, detector: int, when: str) 
     env = {**os.environ, "GLIBC_TUNABLES": f"glibc.malloc.perturb={0xA5}:glibc.malloc.tcache_count=0"}
     done = subprocess.run(command, env=env, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr[-2000:]
+
+
+@pytest.mark.parametrize("tip", ["up", "down"])
+def test_contacts_of_a_cone(tmp_path: Path, tip: str) -> None:
+    """On its base all around the rim, on its tip where that is; the engine makes FCL's cones at a pose never set."""
+    cone = "<cone><radius>0.5</radius><height>1</height></cone>"
+    angle = {"up": -np.pi / 2, "down": np.pi / 2}[tip]
+    world = make_world(tmp_path, floor(), free_body(at=(3, 0.49, -2, angle, 0, 0), shape=cone))
+    world.set_collision_detector(pydart2.World.FCL_COLLISION_DETECTOR)
+    world.check_collision()
+    points = np.array([contact.point for contact in world.collision_result.contacts]) - (3, 0, -2)
+    assert np.abs(points[:, 1]).max() <= 0.0101
+    across = np.hypot(points[:, 0], points[:, 2])
+    if tip == "down":
+        assert across.max() <= 0.0051 * np.sqrt(2)
+        return
+    assert across.max() <= 0.5
+    around = np.sort(np.arctan2(points[across > 0.45][:, 0], points[across > 0.45][:, 2]))
+    assert np.diff(around).max() < np.pi / 2
+    world.step(500)
+    np.testing.assert_allclose(world.skeletons[1].bodynodes[0].T[:3, 3], (3, 0.5, -2), atol=0.012)

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import pydart2
-from physics.models import floor, free_body, make_world, save_skeleton
+from physics.models import floor, free_body, make_world
 from pydart2 import shape as shapes
 
 PI = np.pi
@@ -185,17 +185,3 @@ def test_bad_sizes(tmp_path: Path, bad: float) -> None:
     with pytest.raises(ValueError, match=r"shape \(3,\), got \(2,\)"):
         box.set_size([1, 1])
     assert sphere.radius() == 0.5 and box.size().tolist() == [1, 2, 3]
-
-
-def test_cones_are_not_for_fcl(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    """The engine leaves the transform of FCL's cones unset: contacts would be anywhere, in one run of ten."""
-    cone = free_body(shape="<cone><radius>0.5</radius><height>3</height></cone>")
-    world = pydart2.World(0.001)
-    world.set_collision_detector(pydart2.World.FCL_COLLISION_DETECTOR)
-    world.add_skeleton(save_skeleton(tmp_path, cone))
-    assert world.collision_detector_string() == "BULLET_COLLISION_DETECTOR"
-    assert "puts cones in random places" in caplog.text
-    with pytest.raises(ValueError, match="keep another detector, such as bullet"):
-        world.set_collision_detector(pydart2.World.FCL_COLLISION_DETECTOR)
-    world.set_collision_detector(pydart2.World.DART_COLLISION_DETECTOR)
-    assert world.collision_detector_string() == "DART_COLLISION_DETECTOR"
