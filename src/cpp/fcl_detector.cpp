@@ -6,6 +6,7 @@
 #include <dart/dynamics/CylinderShape.hpp>
 #include <dart/dynamics/EllipsoidShape.hpp>
 #include <dart/dynamics/MeshShape.hpp>
+#include <dart/dynamics/PyramidShape.hpp>
 #include <dart/dynamics/ShapeFrame.hpp>
 #include <dart/dynamics/SphereShape.hpp>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
@@ -14,6 +15,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "shared_scenes.hpp"
 
@@ -93,10 +95,24 @@ std::shared_ptr<const Tree> make_cone(const ConeShape& shape)
   return tree;
 }
 
+std::shared_ptr<const Tree> make_pyramid(const PyramidShape& shape)
+{
+  const double x = shape.getBaseWidth() / 2, y = shape.getBaseDepth() / 2, z = shape.getHeight() / 2;
+  const std::vector<Eigen::Vector3d> corners{{0.0, 0.0, z}, {-x, -y, -z}, {x, -y, -z}, {x, y, -z}, {-x, y, -z}};
+  const std::vector<::fcl::Triangle> faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {1, 3, 2}, {1, 4, 3}};
+  auto tree = std::make_shared<Tree>();
+  tree->beginModel();
+  tree->addSubModel(corners, faces);
+  tree->endModel();
+  return tree;
+}
+
 std::shared_ptr<const Tree> make_tree(const ConstShapePtr& shape)
 {
   if (const auto* cone = dynamic_cast<const ConeShape*>(shape.get()))
     return make_cone(*cone);
+  if (const auto* pyramid = dynamic_cast<const PyramidShape*>(shape.get()))
+    return make_pyramid(*pyramid);
   const auto made = std::make_shared<Made>();
   made->geometry = made->maker.claimFCLCollisionGeometry(shape);
   return {made, static_cast<const Tree*>(made->geometry.get())};
@@ -116,6 +132,10 @@ std::pair<Recipe, ConstShapePtr> recipe_of(const Shape& shape, FCLCollisionDetec
     if (!take_scene(mesh->getMesh()))
       return {};
     return {recipe(mesh->getScale(), mesh->getMesh()), std::make_shared<MeshShape>(mesh->getScale(), mesh->getMesh())};
+  }
+  if (const auto* pyramid = dynamic_cast<const PyramidShape*>(&shape)) {
+    const Eigen::Vector3d sizes(pyramid->getBaseWidth(), pyramid->getBaseDepth(), pyramid->getHeight());
+    return {recipe(sizes), std::make_shared<PyramidShape>(sizes.x(), sizes.y(), sizes.z())};
   }
   if (type != FCLCollisionDetector::MESH)
     return {};

@@ -6,8 +6,8 @@ namespace pydart2 {
 
 /// The engine's detector with FCL, but for three things. Equal shapes of all worlds share the tree of their triangles,
 /// which is most of what a robot takes in memory. A shape that has changed keeps its body: the engine's own refresh
-/// forgets to say whose shape it is, and the next contact reads memory that was never set. And cones are where they
-/// belong: the engine makes their triangles at a pose that was never set.
+/// forgets to say whose shape it is, and the next contact reads memory that was never set. And cones and pyramids
+/// are where they belong: the engine makes their triangles at a pose that was never set.
 class FclDetector : public dart::collision::FCLCollisionDetector
 {
 public:

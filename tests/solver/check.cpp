@@ -21,6 +21,7 @@
 #include <cstring>
 #include <dart/constraint/BoxedLcpConstraintSolver.hpp>
 #include <dart/dynamics/ConeShape.hpp>
+#include <dart/dynamics/PyramidShape.hpp>
 #include <dart/external/odelcpsolver/common.h>
 #include <iostream>
 
@@ -158,13 +159,13 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b)
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-/// Cones: the engine's own detector with FCL puts them anywhere.
-bool has_cones(const World& world)
+/// Whether the engine's own detector with FCL puts one of its shapes anywhere.
+bool has_cone_or_pyramid(const World& world)
 {
   for (std::size_t i = 0; i < world.getNumSkeletons(); ++i)
     for (const auto* body : world.getSkeleton(i)->getBodyNodes())
       for (const auto* node : body->getShapeNodesWith<dart::dynamics::CollisionAspect>())
-        if (node->getShape()->is<dart::dynamics::ConeShape>())
+        if (node->getShape()->is<dart::dynamics::ConeShape>() || node->getShape()->is<dart::dynamics::PyramidShape>())
           return true;
   return false;
 }
@@ -176,7 +177,7 @@ void run(int steps, const std::string& model, const std::string& detector, const
   const auto ours = make_scene(model, detector, variation);
   const auto compared = make_scene(model, detector, variation);
   for (const auto& world : {theirs, twin, ours, compared})
-    if (world == ours || (detector == "fcl" && has_cones(*world)))
+    if (world == ours || (detector == "fcl" && has_cone_or_pyramid(*world)))
       pydart2::replace_detector(*world->getConstraintSolver());
   pydart2::install_solver(*ours, pydart2::Solver::fast);
   compared->setConstraintSolver(std::make_unique<ComparingSolver>(report));

@@ -245,12 +245,16 @@ def test_contacts_of_shapes_that_grow(tmp_path: Path, detector: int, when: str) 
     assert done.returncode == 0, done.stderr[-2000:]
 
 
+CONE = "<cone><radius>0.5</radius><height>1</height></cone>"
+PYRAMID = "<pyramid><base_width>1</base_width><base_depth>1</base_depth><height>1</height></pyramid>"
+
+
+@pytest.mark.parametrize("shape", [CONE, PYRAMID])
 @pytest.mark.parametrize("tip", ["up", "down"])
-def test_contacts_of_a_cone(tmp_path: Path, tip: str) -> None:
-    """On its base all around the rim, on its tip where that is; the engine makes FCL's cones at a pose never set."""
-    cone = "<cone><radius>0.5</radius><height>1</height></cone>"
+def test_contacts_of_cones_and_pyramids(tmp_path: Path, shape: str, tip: str) -> None:
+    """On the base all around the rim, on the tip where that is; the engine makes FCL's at a pose never set."""
     angle = {"up": -np.pi / 2, "down": np.pi / 2}[tip]
-    world = make_world(tmp_path, floor(), free_body(at=(3, 0.49, -2, angle, 0, 0), shape=cone))
+    world = make_world(tmp_path, floor(), free_body(at=(3, 0.49, -2, angle, 0, 0), shape=shape))
     world.set_collision_detector(pydart2.World.FCL_COLLISION_DETECTOR)
     world.check_collision()
     points = np.array([contact.point for contact in world.collision_result.contacts]) - (3, 0, -2)
@@ -259,8 +263,8 @@ def test_contacts_of_a_cone(tmp_path: Path, tip: str) -> None:
     if tip == "down":
         assert across.max() <= 0.0051 * np.sqrt(2)
         return
-    assert across.max() <= 0.5
+    assert across.max() <= (0.5 if shape == CONE else np.hypot(0.5, 0.5))
     around = np.sort(np.arctan2(points[across > 0.45][:, 0], points[across > 0.45][:, 2]))
-    assert np.diff(around).max() < np.pi / 2
+    assert np.diff(around).max() < np.pi / 2 + 1e-5  # the corners are a quarter apart
     world.step(500)
     np.testing.assert_allclose(world.skeletons[1].bodynodes[0].T[:3, 3], (3, 0.5, -2), atol=0.012)
