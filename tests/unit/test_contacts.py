@@ -245,16 +245,43 @@ def test_contacts_of_shapes_that_grow(tmp_path: Path, detector: int, when: str) 
     assert done.returncode == 0, done.stderr[-2000:]
 
 
-CONE = "<cone><radius>0.5</radius><height>1</height></cone>"
-PYRAMID = "<pyramid><base_width>1</base_width><base_depth>1</base_depth><height>1</height></pyramid>"
+SHAPES = {
+    "box": box((1, 1, 1)),
+    "sphere": sphere(0.5),
+    "ellipsoid": "<ellipsoid><size>0.1 1 0.1</size></ellipsoid>",
+    "cylinder": "<cylinder><radius>0.5</radius><height>1</height></cylinder>",
+    "capsule": "<capsule><radius>0.5</radius><height>0.5</height></capsule>",
+    "cone": "<cone><radius>0.5</radius><height>1</height></cone>",
+    "pyramid": "<pyramid><base_width>1</base_width><base_depth>1</base_depth><height>1</height></pyramid>",
+    "multi-sphere": "<multi_sphere><sphere><radius>0.5</radius><position>0 0 0</position></sphere></multi_sphere>",
+}
+HAS = [
+    {"box", "sphere"},
+    {"box", "sphere", "ellipsoid", "cylinder", "cone", "pyramid"},
+    set(SHAPES) - {"pyramid"},
+    {"box", "sphere", "cylinder", "capsule"},
+]
 
 
-@pytest.mark.parametrize("shape", [CONE, PYRAMID])
+@pytest.mark.parametrize("detector", range(4))
+def test_shapes_that_a_detector_has(tmp_path: Path, detector: int) -> None:
+    """As docs/concepts.md says."""
+    found = set()
+    for name, shape in SHAPES.items():
+        world = make_world(tmp_path, floor(), free_body(at=(0, 0.2, 0, 0, 0, 0), shape=shape))
+        world.set_collision_detector(detector)
+        world.check_collision()
+        if world.collision_result.contacts:
+            found.add(name)
+    assert found == HAS[detector]
+
+
+@pytest.mark.parametrize("kind", ["cone", "pyramid"])
 @pytest.mark.parametrize("tip", ["up", "down"])
-def test_contacts_of_cones_and_pyramids(tmp_path: Path, shape: str, tip: str) -> None:
+def test_contacts_of_cones_and_pyramids(tmp_path: Path, kind: str, tip: str) -> None:
     """On the base all around the rim, on the tip where that is; the engine makes FCL's at a pose never set."""
     angle = {"up": -np.pi / 2, "down": np.pi / 2}[tip]
-    world = make_world(tmp_path, floor(), free_body(at=(3, 0.49, -2, angle, 0, 0), shape=shape))
+    world = make_world(tmp_path, floor(), free_body(at=(3, 0.49, -2, angle, 0, 0), shape=SHAPES[kind]))
     world.set_collision_detector(pydart2.World.FCL_COLLISION_DETECTOR)
     world.check_collision()
     points = np.array([contact.point for contact in world.collision_result.contacts]) - (3, 0, -2)
@@ -263,7 +290,7 @@ def test_contacts_of_cones_and_pyramids(tmp_path: Path, shape: str, tip: str) ->
     if tip == "down":
         assert across.max() <= 0.0051 * np.sqrt(2)
         return
-    assert across.max() <= (0.5 if shape == CONE else np.hypot(0.5, 0.5))
+    assert across.max() <= (0.5 if kind == "cone" else np.hypot(0.5, 0.5))
     around = np.sort(np.arctan2(points[across > 0.45][:, 0], points[across > 0.45][:, 2]))
     assert np.diff(around).max() < np.pi / 2 + 1e-5  # the corners are a quarter apart
     world.step(500)
