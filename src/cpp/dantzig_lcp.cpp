@@ -60,10 +60,10 @@ bool DantzigLcp::solve(
     const int n = num_clamped_;
     w_[row] = dot(A_[row], x_, n) + dot(A_[row] + n, x_ + n, num_bound_) - b_[row];
     if (lo_[row] == 0.0 && w_[row] >= 0.0) {
-      at_upper_[row] = false;
+      stay(row, -1.0);
       ++num_bound_;
     } else if (hi_[row] == 0.0 && w_[row] <= 0.0) {
-      at_upper_[row] = true;
+      stay(row, 1.0);
       ++num_bound_;
     } else if (w_[row] == 0.0) {
       find_column(row, 0, driven_);
@@ -88,10 +88,9 @@ void DantzigLcp::begin(Matrix& A)
     A_[row] = A.row(row).data();
     original_[row] = row;
   }
-  for (auto* numbers : {&w_, &dx_, &dw_, &inverse_D_, &sums_, &first_, &second_, &driven_.values, &driven_.scaled,
+  for (auto* numbers : {&w_, &side_, &dx_, &dw_, &inverse_D_, &sums_, &first_, &second_, &driven_.values, &driven_.scaled,
                         &other_.values, &other_.scaled})
     numbers->resize(size);
-  at_upper_.resize(size);
   clamped_.resize(size);
   stride_ = (size_ + 1) / 2 * 2 + 2;
   L_.resize(size * static_cast<std::size_t>(stride_));
@@ -168,8 +167,8 @@ bool DantzigLcp::drive(int row)
         return true;
       case End::at_lower:
       case End::at_upper:
-        at_upper_[row] = step.end == End::at_upper;
-        x_[row] = at_upper_[row] ? hi_[row] : lo_[row];
+        stay(row, step.end == End::at_upper ? 1.0 : -1.0);
+        x_[row] = step.end == End::at_upper ? hi_[row] : lo_[row];
         ++num_bound_;
         return true;
       case End::clamp:
@@ -181,16 +180,33 @@ bool DantzigLcp::drive(int row)
         break;
       case End::release_at_lower:
       case End::release_at_upper:
-        at_upper_[other] = step.end == End::release_at_upper;
-        x_[other] = at_upper_[other] ? hi_[other] : lo_[other];
+        stay(other, step.end == End::release_at_upper ? 1.0 : -1.0);
+        x_[other] = step.end == End::release_at_upper ? hi_[other] : lo_[other];
         known = release(other);
         break;
     }
   }
 }
 
-DantzigLcp::Step DantzigLcp::longest_step(int row, double direction) const
+void DantzigLcp::stay(int row, double side)
 {
+  side_[row] = lo_[row] == 0.0 && hi_[row] == 0.0 ? 0.0 : side;
+}
+
+/// All lengths first, two at a time, also those of rows that go the other way; then one test for each, which hardly ever
+/// holds. Which way a row goes no processor guesses.
+DantzigLcp::Step DantzigLcp::longest_step(int row, double direction)
+{
+  const int n = num_clamped_, end = n + num_bound_;
+  double* __restrict lengths = sums_.data();
+  const double *x = x_, *lo = lo_, *hi = hi_, *w = w_.data(), *dx = dx_.data(), *dw = dw_.data(), *side = side_.data();
+  for (int i = num_free_; i < n; ++i) {
+    const double low = lo[i], high = hi[i];
+    lengths[i] = ((dx[i] < 0.0 ? low : high) - x[i]) / dx[i];
+  }
+  for (int i = n; i < end; ++i)
+    lengths[i] = -w[i] / dw[i];
+
   Step step{-w_[row] / dw_[row], End::solved, row};
   const auto limit = [&step](double length, End end, int by) {
     if (length < step.length)
@@ -201,15 +217,12 @@ DantzigLcp::Step DantzigLcp::longest_step(int row, double direction) const
       limit((hi_[row] - x_[row]) * direction, End::at_upper, row);
   } else if (lo_[row] > -infinity)
     limit((lo_[row] - x_[row]) * direction, End::at_lower, row);
-  for (int i = num_clamped_; i < num_clamped_ + num_bound_; ++i)
-    if ((at_upper_[i] ? dw_[i] > 0.0 : dw_[i] < 0.0) && !(lo_[i] == 0.0 && hi_[i] == 0.0))
-      limit(-w_[i] / dw_[i], End::clamp, i);
-  for (int i = num_free_; i < num_clamped_; ++i) {
-    if (dx_[i] < 0.0 && lo_[i] > -infinity)
-      limit((lo_[i] - x_[i]) / dx_[i], End::release_at_lower, i);
-    if (dx_[i] > 0.0 && hi_[i] < infinity)
-      limit((hi_[i] - x_[i]) / dx_[i], End::release_at_upper, i);
-  }
+  for (int i = n; i < end; ++i)
+    if ((lengths[i] < step.length) & (side[i] * dw[i] > 0.0))
+      step = {lengths[i], End::clamp, i};
+  for (int i = num_free_; i < n; ++i)
+    if ((lengths[i] < step.length) & (dx[i] != 0.0))
+      step = {lengths[i], dx[i] < 0.0 ? End::release_at_lower : End::release_at_upper, i};
   return step;
 }
 
@@ -424,11 +437,10 @@ void DantzigLcp::swap_rows(int row1, int row2)
   std::swap(A_[row1], A_[row2]);
   for (int i = row2 + 1; i < size_; ++i)
     std::swap(A_[i][row1], A_[i][row2]);
-  for (double* numbers : {x_, b_, lo_, hi_, w_.data()})
+  for (double* numbers : {x_, b_, lo_, hi_, w_.data(), side_.data()})
     std::swap(numbers[row1], numbers[row2]);
   for (int* numbers : {findex_, original_.data()})
     std::swap(numbers[row1], numbers[row2]);
-  std::swap(at_upper_[row1], at_upper_[row2]);
 }
 
 } // namespace pydart2

@@ -44,7 +44,8 @@ private:
   void put_friction_last();
   void bound_friction(int from);
   bool drive(int row);
-  Step longest_step(int row, double direction) const;
+  Step longest_step(int row, double direction);
+  void stay(int row, double side);
   void clamp(int row, const Column& column);
   int release(int row);
 
@@ -65,7 +66,7 @@ private:
   double *x_ = nullptr, *b_ = nullptr, *lo_ = nullptr, *hi_ = nullptr;
   int* findex_ = nullptr;
   std::vector<double> w_, dx_, dw_;
-  std::vector<char> at_upper_;
+  std::vector<double> side_; ///< Of a row at a bound: 1 upper, -1 lower, 0 if it has no way to go.
   std::vector<int> original_;
 
   // Factors of the clamped rows in the order in which they came; L without its diagonal, D inverted.

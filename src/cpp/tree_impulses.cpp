@@ -14,7 +14,7 @@ using dart::dynamics::BodyNode;
 using dart::dynamics::GenericJoint;
 
 /// A wrench, from the frame at T to the frame that T is relative to: dart::math::dAdInvT, inline.
-Vector6 to_parent(const Eigen::Isometry3d& T, const Vector6& wrench)
+[[gnu::always_inline]] inline Vector6 to_parent(const Eigen::Isometry3d& T, const Vector6& wrench)
 {
   Vector6 result;
   result.tail<3>().noalias() = T.linear() * wrench.tail<3>();
@@ -24,7 +24,7 @@ Vector6 to_parent(const Eigen::Isometry3d& T, const Vector6& wrench)
 }
 
 /// A twist, from the frame that T is relative to into the frame at T: dart::math::AdInvT, inline.
-Vector6 to_child(const Eigen::Isometry3d& T, const Vector6& twist)
+[[gnu::always_inline]] inline Vector6 to_child(const Eigen::Isometry3d& T, const Vector6& twist)
 {
   Vector6 result;
   result.head<3>().noalias() = T.linear().transpose() * twist.head<3>();
