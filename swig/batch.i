@@ -1,6 +1,6 @@
 %{
-#include "batch.hpp"
+#include "handles/batch.hpp"
 %}
 
 %ignore pydart2::BatchHandle::claim;
-%include "batch.hpp"
+%include "handles/batch.hpp"

@@ -1,7 +1,7 @@
 %{
-#include "bodynode.hpp"
+#include "handles/bodynode.hpp"
 %}
 
 %ignore pydart2::BodyNodeHandle::BodyNodeHandle; // handles come from their skeleton
 %ignore pydart2::BodyNodeHandle::body;
-%include "bodynode.hpp"
+%include "handles/bodynode.hpp"

@@ -1,6 +1,6 @@
 %{
-#include "dof.hpp"
+#include "handles/dof.hpp"
 %}
 
 %ignore pydart2::DofHandle::DofHandle; // handles come from their skeleton
-%include "dof.hpp"
+%include "handles/dof.hpp"

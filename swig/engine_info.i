@@ -1,5 +1,5 @@
 %{
-#include "engine_info.hpp"
+#include "handles/engine_info.hpp"
 %}
 
-%include "engine_info.hpp"
+%include "handles/engine_info.hpp"

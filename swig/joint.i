@@ -1,6 +1,6 @@
 %{
-#include "joint.hpp"
+#include "handles/joint.hpp"
 %}
 
 %ignore pydart2::JointHandle::JointHandle; // handles come from their skeleton
-%include "joint.hpp"
+%include "handles/joint.hpp"

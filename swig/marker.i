@@ -1,6 +1,6 @@
 %{
-#include "marker.hpp"
+#include "handles/marker.hpp"
 %}
 
 %ignore pydart2::MarkerHandle::MarkerHandle; // handles come from their skeleton
-%include "marker.hpp"
+%include "handles/marker.hpp"

@@ -1,6 +1,6 @@
 %{
-#include "mesh.hpp"
+#include "handles/mesh.hpp"
 %}
 
 %ignore pydart2::MeshHandle::MeshHandle; // from ShapeHandle::mesh
-%include "mesh.hpp"
+%include "handles/mesh.hpp"

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "arrays.hpp"
-#include "blueprint.hpp"
-#include "contact_row.hpp"
-#include "errors.hpp"
-#include "messages.hpp"
-#include "named_vector.hpp"
+#include "base/arrays.hpp"
+#include "base/errors.hpp"
+#include "base/messages.hpp"
+#include "python/contact_row.hpp"
+#include "python/named_vector.hpp"
+#include "state/blueprint.hpp"
 
 /// What the typemaps call: NumPy in, NumPy out, exceptions across.
 namespace pydart2::python {

@@ -3,9 +3,9 @@
 
 %{
 #define PY_ARRAY_UNIQUE_SYMBOL pydart2_ARRAY_API
-#include "assertions.hpp"
+#include "engine/assertions.hpp"
+#include "engine/shared_scenes.hpp"
 #include "numpy_glue.hpp"
-#include "shared_scenes.hpp"
 %}
 
 %init %{

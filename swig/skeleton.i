@@ -1,6 +1,6 @@
 %{
-#include "skeleton.hpp"
+#include "handles/skeleton.hpp"
 %}
 
 %ignore pydart2::SkeletonHandle::SkeletonHandle; // handles come from their world
-%include "skeleton.hpp"
+%include "handles/skeleton.hpp"

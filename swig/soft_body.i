@@ -1,6 +1,6 @@
 %{
-#include "soft_body.hpp"
+#include "handles/soft_body.hpp"
 %}
 
 %ignore pydart2::SoftBodyHandle::SoftBodyHandle; // from BodyNodeHandle::soft_body
-%include "soft_body.hpp"
+%include "handles/soft_body.hpp"

@@ -1,7 +1,7 @@
 %{
-#include "world.hpp"
+#include "handles/world.hpp"
 %}
 
 %ignore pydart2::WorldHandle::claim;
 %ignore pydart2::WorldHandle::ref;
-%include "world.hpp"
+%include "handles/world.hpp"

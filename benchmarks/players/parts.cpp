@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "dantzig_lcp.hpp"
+#include "contact/dantzig_lcp.hpp"
 #include "loop.hpp"
 
 using dart::constraint::BoxedLcpConstraintSolver;

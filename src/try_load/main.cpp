@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "detector.hpp"
-#include "errors.hpp"
-#include "loading.hpp"
-#include "messages.hpp"
-#include "shared_scenes.hpp"
+#include "base/errors.hpp"
+#include "base/messages.hpp"
+#include "collision/detector.hpp"
+#include "engine/shared_scenes.hpp"
+#include "loading/loading.hpp"
 
 namespace {
 

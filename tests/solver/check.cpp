@@ -25,9 +25,9 @@
 #include <dart/external/odelcpsolver/common.h>
 #include <iostream>
 
-#include "constraint_matrix.hpp"
-#include "detector.hpp"
-#include "fast_solver.hpp"
+#include "collision/detector.hpp"
+#include "contact/constraint_matrix.hpp"
+#include "contact/fast_solver.hpp"
 #include "scenes.hpp"
 
 using dart::constraint::ConstrainedGroup;

@@ -12,7 +12,7 @@
 #include <random>
 #include <string>
 
-#include "dantzig_lcp.hpp"
+#include "contact/dantzig_lcp.hpp"
 
 namespace {
 

@@ -1,0 +1,105 @@
+#include "collision/detector.hpp"
+
+#include <dart/collision/bullet/BulletCollisionDetector.hpp>
+#include <dart/collision/dart/DARTCollisionDetector.hpp>
+
+#include "base/errors.hpp"
+#include "collision/fcl_detector.hpp"
+#include "collision/ode_detector.hpp"
+
+namespace pydart2 {
+
+using namespace dart::collision;
+using dart::constraint::ConstraintSolver;
+
+std::unique_lock<std::recursive_mutex> lock_ode()
+{
+  static std::recursive_mutex mutex;
+  return std::unique_lock(mutex);
+}
+
+CollisionDetectorPtr make_detector(const std::string& name)
+{
+  const auto lock = lock_ode();
+  if (name == "dart")
+    return DARTCollisionDetector::create();
+  if (name == "fcl")
+    return FclDetector::create();
+  if (name == "bullet")
+    return BulletCollisionDetector::create();
+  if (name == "ode")
+    return OdeDetector::create();
+  throw Error(Kind::value, "no collision detector '" + name + "'; there are dart, fcl, bullet and ode");
+}
+
+void use_detector(ConstraintSolver& solver, const CollisionDetectorPtr& detector)
+{
+  // Not by setCollisionDetector(): shapes that change would collide as before, as its group does not follow skeletons.
+  struct Solver : ConstraintSolver
+  {
+    static auto& detector_of(ConstraintSolver& solver) { return solver.*(&Solver::mCollisionDetector); }
+    static auto& group_of(ConstraintSolver& solver) { return solver.*(&Solver::mCollisionGroup); }
+  };
+
+  const auto lock = lock_ode();
+  solver.clearLastCollisionResult(); // it points to objects of the old detector
+  auto& group = Solver::group_of(solver);
+  group = detector->createCollisionGroupAsSharedPtr();
+  Solver::detector_of(solver) = detector;
+  for (const auto& skeleton : solver.getSkeletons())
+    group->subscribeTo(skeleton);
+}
+
+void replace_detector(ConstraintSolver& solver)
+{
+  const auto lock = lock_ode();
+  const auto old = solver.getCollisionDetector(); // goes before the lock
+  const auto detector = make_detector(old->getType());
+  if (const auto fcl = std::dynamic_pointer_cast<FCLCollisionDetector>(old)) {
+    auto& mine = dynamic_cast<FclDetector&>(*detector);
+    mine.setPrimitiveShapeType(fcl->getPrimitiveShapeType());
+    mine.setContactPointComputationMethod(fcl->getContactPointComputationMethod());
+  }
+  use_detector(solver, detector);
+}
+
+void renew_detector(ConstraintSolver& solver)
+{
+  const auto detector = solver.getCollisionDetector();
+  const auto group = solver.getCollisionGroup(); // keeps the meshes' trees, which are dear to make
+  if (detector->getType() == "bullet")
+    use_detector(solver, detector->cloneWithoutCollisionObjects());
+  if (detector->getType() == "fcl") {
+    // The new tree depends on where the objects are when they are added; a soft one keeps its last two meshes.
+    for (int i = 0; i < 2; ++i)
+      group->collide(CollisionOption(false, 1));
+    use_detector(solver, detector);
+  }
+}
+
+void visit_detector(Archive& archive, ConstraintSolver& solver)
+{
+  archive.text(
+      [&] { return solver.getCollisionDetector()->getType(); },
+      [&](const std::string& name) { use_detector(solver, make_detector(name)); });
+  const auto fcl = std::dynamic_pointer_cast<FCLCollisionDetector>(solver.getCollisionDetector());
+  if (!fcl)
+    return;
+  bool changed = false;
+  archive.number(
+      [&] { return static_cast<double>(fcl->getPrimitiveShapeType()); },
+      [&](double type) {
+        fcl->setPrimitiveShapeType(static_cast<FCLCollisionDetector::PrimitiveShape>(type));
+        changed = true;
+      });
+  archive.number(
+      [&] { return static_cast<double>(fcl->getContactPointComputationMethod()); },
+      [&](double method) {
+        fcl->setContactPointComputationMethod(
+            static_cast<FCLCollisionDetector::ContactPointComputationMethod>(method));
+      });
+  if (changed)
+    use_detector(solver, fcl); // the shapes are made anew
+}
+
+} // namespace pydart2

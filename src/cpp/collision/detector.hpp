@@ -1,0 +1,40 @@
+#pragma once
+
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/simulation/World.hpp>
+#include <mutex>
+#include <string>
+
+#include "base/archive.hpp"
+
+namespace pydart2 {
+
+/// ODE keeps data per process: to be held where a world with its detector is made, used or freed. While it is held no
+/// lock may be taken but those of shared_scenes.cpp and fcl_detector.cpp, under which nothing else is taken.
+std::unique_lock<std::recursive_mutex> lock_ode();
+
+/// What `make` makes from a file, which may ask for ODE.
+template <class Make>
+auto with_ode(Make make)
+{
+  const auto lock = lock_ode();
+  return make();
+}
+
+/// "dart", "fcl", "bullet" or "ode"; ValueError for any other name.
+dart::collision::CollisionDetectorPtr make_detector(const std::string& name);
+
+/// Lets a solver find contacts with a detector, in the order of a world that the engine has just loaded. Shapes that
+/// bodies get, lose or change later count.
+void use_detector(dart::constraint::ConstraintSolver& solver, const dart::collision::CollisionDetectorPtr& detector);
+
+/// Lets a world that the engine has made find contacts with one of make_detector(), of the same kind.
+void replace_detector(dart::constraint::ConstraintSolver& solver);
+
+/// The same detector without memory of the steps before.
+void renew_detector(dart::constraint::ConstraintSolver& solver);
+
+/// Which detector, and how FCL treats primitive shapes.
+void visit_detector(Archive& archive, dart::constraint::ConstraintSolver& solver);
+
+} // namespace pydart2

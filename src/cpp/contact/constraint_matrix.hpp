@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <dart/constraint/ConstrainedGroup.hpp>
+#include <dart/dynamics/Skeleton.hpp>
+#include <vector>
+
+#include "dynamics/tree_impulses.hpp"
+#include "engine/engine_access.hpp"
+
+namespace pydart2 {
+
+/// The matrix A of the linear complementarity problem of a group of constraints, w = A x - b: element (i, j) is the
+/// change of the velocity that row j reads by a unit impulse of row i, A = N M^-1 N' with the rows' directions N and
+/// the mass matrix M. Every element is bitwise the one that dart::constraint::BoxedLcpConstraintSolver computes.
+///
+/// DART sends each unit impulse through the whole skeleton and lets every constraint read its rows. Here it travels
+/// only through bodies that bear a row and their ancestors (TreeImpulses), and each body reads the rows that it bears
+/// at once. Constraints that this does not know, and those on the same skeletons as these, take DART's way.
+class ConstraintMatrix
+{
+public:
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// Reads the rows of a group; `skeletons` are all that its constraints may act on.
+  void read(dart::constraint::ConstrainedGroup& group, const std::vector<dart::dynamics::SkeletonPtr>& skeletons);
+
+  /// Fills A, square and as large as the group that was read. `time_step` is the one of the contacts.
+  void fill(dart::constraint::ConstrainedGroup& group, double time_step, Matrix& A);
+
+  /// Applies the impulses of all rows to the bodies, as each constraint would.
+  void apply(dart::constraint::ConstrainedGroup& group, double time_step, Eigen::VectorXd& impulses) const;
+
+private:
+  using Skeleton = dart::dynamics::Skeleton;
+
+  /// A constraint of the group, and the numbers in trees_ of the bodies that its rows act on: the child body of a
+  /// joint, or two bodies; `none` for one that is missing or that no impulse moves.
+  struct Item
+  {
+    engine::Rows rows;
+    int begin = 0, end = 0; ///< Its rows.
+    std::array<int, 2> bodies{TreeImpulses::none, TreeImpulses::none};
+    bool by_engine = false; ///< Its rows take DART's way.
+  };
+
+  /// A row that reads the velocity change of a degree of freedom.
+  struct JointReading
+  {
+    int row, body, dof;
+  };
+
+  void find_foreign(dart::constraint::ConstraintBase& constraint, const std::vector<dart::dynamics::SkeletonPtr>& all);
+  int add(dart::dynamics::BodyNode* body, Item& item);
+  void add_joint(Item& item);
+  void gather_readings();
+
+  void fill_rows(const Item& item, double time_step, Matrix& A);
+  void push(const Item& item, int row);
+  void read_tree(int tree, int first_row, double* out);
+  void read_body(int body, int first_row, double* out);
+  void fill_rows_by_engine(dart::constraint::ConstrainedGroup& group, std::size_t index, Matrix& A) const;
+
+  TreeImpulses trees_;
+  std::vector<Item> items_;
+  std::vector<const Skeleton*> foreign_; ///< Skeletons that constraints of unknown kinds act on.
+  std::vector<JointReading> joint_readings_;
+
+  // Directions of all rows at bodies, a column each, component by component in memory; sorted by body, order of
+  // summation and row. A body's columns of one order run from starts_ to ends_; starts_ moves past rows that are done.
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> directions_;
+  std::vector<int> direction_rows_, starts_, ends_;
+  Eigen::ArrayXd values_;
+};
+
+} // namespace pydart2

@@ -1,0 +1,195 @@
+#include "contact/fast_solver.hpp"
+
+#include <cstdlib>
+#include <dart/common/Console.hpp>
+#include <dart/constraint/DantzigBoxedLcpSolver.hpp>
+#include <dart/external/odelcpsolver/common.h>
+#include <set>
+
+#include "base/errors.hpp"
+#include "contact/contact_reduction.hpp"
+
+namespace pydart2 {
+
+using dart::constraint::ConstrainedGroup;
+
+Solver solver_named(const std::string& name)
+{
+  if (name == "dart")
+    return Solver::dart;
+  if (name == "fast")
+    return Solver::fast;
+  throw Error(Kind::value, "no constraint solver '" + name + "'; there are fast and dart");
+}
+
+const char* name_of(Solver solver)
+{
+  return solver == Solver::fast ? "fast" : "dart";
+}
+
+Solver default_solver()
+{
+  const char* name = std::getenv("PYDART2_SOLVER");
+  if (name == nullptr || *name == '\0')
+    return Solver::fast;
+  try {
+    return solver_named(name);
+  } catch (const Error& error) {
+    throw Error(Kind::value, std::string("environment variable PYDART2_SOLVER: ") + error.what());
+  }
+}
+
+void install_solver(dart::simulation::World& world, Solver solver)
+{
+  auto installed = std::make_unique<FastConstraintSolver>();
+  installed->set_solver(solver);
+  world.setConstraintSolver(std::move(installed));
+}
+
+FastConstraintSolver& fast_solver(const dart::simulation::World& world)
+{
+  return dynamic_cast<FastConstraintSolver&>(*const_cast<dart::simulation::World&>(world).getConstraintSolver());
+}
+
+void FastConstraintSolver::set_warm_start(bool enable)
+{
+  warm_start_ = enable;
+  warm_lcp_.forget();
+}
+
+void FastConstraintSolver::setFromOtherConstraintSolver(const ConstraintSolver& from)
+{
+  auto& other = const_cast<ConstraintSolver&>(from); // its collision group is shared, not changed
+  mCollisionDetector = other.getCollisionDetector();
+  mCollisionGroup = other.getCollisionGroup();
+  mCollisionOption = other.getCollisionOption();
+  mCollisionResult = other.getLastCollisionResult();
+  mSkeletons = other.getSkeletons();
+  mManualConstraints = other.getConstraints();
+  if (const auto* boxed = dynamic_cast<const BoxedLcpConstraintSolver*>(&from)) {
+    mBoxedLcpSolver = std::const_pointer_cast<dart::constraint::BoxedLcpSolver>(boxed->getBoxedLcpSolver());
+    mSecondaryBoxedLcpSolver
+        = std::const_pointer_cast<dart::constraint::BoxedLcpSolver>(boxed->getSecondaryBoxedLcpSolver());
+  }
+}
+
+void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
+{
+  if (&group == &mConstrainedGroups.front())
+    shared_ = solver_ == Solver::fast && mConstrainedGroups.size() > 1 && groups_share_skeletons();
+  if (contact_reduction_)
+    keep_extremal_contacts(group);
+  if (solver_ == Solver::dart || shared_) {
+    BoxedLcpConstraintSolver::solveConstrainedGroup(group);
+    return;
+  }
+  const auto size = static_cast<Eigen::Index>(group.getTotalDimension());
+  if (size == 0)
+    return;
+  read_terms(group);
+  matrix_.read(group, mSkeletons);
+  mA.resize(size, dPAD(size));
+  matrix_.fill(group, mTimeStep, mA);
+  solve_lcp(group);
+  matrix_.apply(group, mTimeStep, mX);
+}
+
+/// DART finds the group of a joint's constraint by one look at a forest of skeletons that contacts have joined, so a
+/// skeleton can be in two groups. Then one group reads what the impulses of the other have left in the skeleton.
+bool FastConstraintSolver::groups_share_skeletons()
+{
+  std::set<const dart::dynamics::Skeleton*> seen;
+  bool shared = false;
+  for (const auto& skeleton : mSkeletons)
+    skeleton->setImpulseApplied(false);
+  for (auto& group : mConstrainedGroups) {
+    for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
+      group.getConstraint(i)->excite();
+    for (const auto& skeleton : mSkeletons)
+      if (skeleton->isImpulseApplied()) {
+        shared |= !seen.insert(skeleton.get()).second;
+        skeleton->setImpulseApplied(false);
+      }
+  }
+  return shared;
+}
+
+/// All but A: bounds, right-hand sides, and for friction the row of the normal force.
+void FastConstraintSolver::read_terms(ConstrainedGroup& group)
+{
+  const auto size = static_cast<Eigen::Index>(group.getTotalDimension());
+  const auto count = static_cast<Eigen::Index>(group.getNumConstraints());
+  mX.resize(size);
+  mB.resize(size);
+  mW.setZero(size);
+  mLo.resize(size);
+  mHi.resize(size);
+  mFIndex.setConstant(size, -1);
+  mOffset.resize(count);
+  int row = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto constraint = group.getConstraint(static_cast<std::size_t>(i));
+    const int end = row + static_cast<int>(constraint->getDimension());
+    mOffset[i] = row;
+    dart::constraint::ConstraintInfo info;
+    info.invTimeStep = 1.0 / mTimeStep;
+    info.x = mX.data() + row;
+    info.lo = mLo.data() + row;
+    info.hi = mHi.data() + row;
+    info.b = mB.data() + row;
+    info.findex = mFIndex.data() + row;
+    info.w = mW.data() + row;
+    constraint->getInformation(&info);
+    for (const int begin = row; row < end; ++row)
+      if (mFIndex[row] >= 0)
+        mFIndex[row] += begin;
+  }
+}
+
+void FastConstraintSolver::solve_lcp(ConstrainedGroup& group)
+{
+  if (warm_start_) {
+    const auto index = static_cast<std::size_t>(&group - mConstrainedGroups.data());
+    if (warm_lcp_.solve(index, {mA, mB, mLo, mHi, mFIndex}, warm_x_)) {
+      mX = warm_x_;
+      return;
+    }
+  }
+  const bool has_second = mSecondaryBoxedLcpSolver != nullptr;
+  if (has_second) { // the first solver overwrites its input
+    mXBackup = mX;
+    mBBackup = mB;
+    mLoBackup = mLo;
+    mHiBackup = mHi;
+    mFIndexBackup = mFIndex;
+  }
+  const bool ours = has_second && dynamic_cast<dart::constraint::DantzigBoxedLcpSolver*>(mBoxedLcpSolver.get()) != nullptr;
+  const bool solved = ours ? dantzig_lcp_.solve(mA, mX, mB, mLo, mHi, mFIndex)
+                           : mBoxedLcpSolver->solve(
+                                 static_cast<int>(mX.size()), mA.data(), mX.data(), mB.data(), 0, mLo.data(), mHi.data(),
+                                 mFIndex.data(), has_second);
+  if (has_second && (!solved || mX.hasNaN()))
+    solve_lcp_again(group);
+  if (mX.hasNaN()) {
+    dterr << "[FastConstraintSolver] The contact and joint impulses are not numbers; this step has none.\n";
+    mX.setZero();
+  }
+}
+
+void FastConstraintSolver::solve_lcp_again(ConstrainedGroup& group)
+{
+  matrix_.fill(group, mTimeStep, mA);
+  mSecondaryBoxedLcpSolver->solve(
+      static_cast<int>(mX.size()),
+      mA.data(),
+      mXBackup.data(),
+      mBBackup.data(),
+      0,
+      mLoBackup.data(),
+      mHiBackup.data(),
+      mFIndexBackup.data(),
+      false);
+  mX = mXBackup;
+}
+
+} // namespace pydart2

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <dart/constraint/BoxedLcpConstraintSolver.hpp>
+#include <dart/simulation/World.hpp>
+#include <string>
+
+#include "contact/constraint_matrix.hpp"
+#include "contact/dantzig_lcp.hpp"
+#include "contact/warm_lcp.hpp"
+
+namespace pydart2 {
+
+/// Which code sets up the constraints' equations of a world; the results are bitwise the same.
+enum class Solver { dart, fast };
+
+/// "dart" or "fast"; ValueError for any other name.
+Solver solver_named(const std::string& name);
+const char* name_of(Solver solver);
+
+/// What a new world gets: "fast", or what the environment variable PYDART2_SOLVER names.
+Solver default_solver();
+
+/// DART's constraint solver with a faster way to the constraint matrix (ConstraintMatrix). All else is DART's own:
+/// collision detection, the making and grouping of constraints, the right-hand sides and bounds, the LCP solvers.
+class FastConstraintSolver final : public dart::constraint::BoxedLcpConstraintSolver
+{
+public:
+  /// `dart` turns all over to the base class.
+  void set_solver(Solver solver) { solver_ = solver; }
+  Solver solver() const { return solver_; }
+
+  /// Leaves out contacts that the others of a face pair make up for (contact_reduction.hpp).
+  void set_contact_reduction(bool enable) { contact_reduction_ = enable; }
+  bool contact_reduction() const { return contact_reduction_; }
+
+  /// Begins each step's LCP from the one before (warm_lcp.hpp); forgets what it remembers.
+  void set_warm_start(bool enable);
+  bool warm_start() const { return warm_start_; }
+  WarmLcp& warm_lcp() { return warm_lcp_; }
+
+  /// Takes over what `other` has, its collision group included: a new one would change the order of the contacts.
+  void setFromOtherConstraintSolver(const dart::constraint::ConstraintSolver& other) override;
+
+protected:
+  void solveConstrainedGroup(dart::constraint::ConstrainedGroup& group) override;
+
+private:
+  bool groups_share_skeletons();
+  void read_terms(dart::constraint::ConstrainedGroup& group);
+  void solve_lcp(dart::constraint::ConstrainedGroup& group);
+  void solve_lcp_again(dart::constraint::ConstrainedGroup& group);
+
+  Solver solver_ = Solver::fast;
+  bool contact_reduction_ = false;
+  bool warm_start_ = false;
+  bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
+  ConstraintMatrix matrix_;
+  DantzigLcp dantzig_lcp_;
+  WarmLcp warm_lcp_;
+  Eigen::VectorXd warm_x_;
+};
+
+/// Gives a world such a solver. Its collision detector, contacts, constraints and LCP solvers stay as they are, and so
+/// does the order of its contacts.
+void install_solver(dart::simulation::World& world, Solver solver);
+
+/// The solver that install_solver() gave.
+FastConstraintSolver& fast_solver(const dart::simulation::World& world);
+
+} // namespace pydart2

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <dart/dynamics/BodyNode.hpp>
+#include <dart/dynamics/DegreeOfFreedom.hpp>
+#include <string>
+
+#include "base/errors.hpp"
+#include "state/world_record.hpp"
+
+namespace pydart2 {
+
+/// A part of a skeleton (body, joint, dof ...) held by DART's own smart pointer, so that it cannot dangle.
+/// Every access first checks that the world is usable and that the tree is still the one this part was taken from.
+template <class T, class Pointer>
+class Part
+{
+public:
+  Part(WorldRef world, SkeletonRef skeleton, T* part)
+    : world(std::move(world)),
+      skeleton(std::move(skeleton)),
+      owner_(part),
+      part_(part),
+      structure_(this->skeleton->structure)
+  {
+  }
+
+  T* get() const
+  {
+    world->check();
+    if (skeleton->structure != structure_)
+      throw Error(
+          Kind::destroyed,
+          "the tree of skeleton '" + skeleton->skeleton->getName()
+              + "' has changed since this handle was made; take it from the skeleton again");
+    return part_;
+  }
+
+  T* operator->() const { return get(); }
+  T& operator*() const { return *get(); }
+
+  const WorldRef world;
+  const SkeletonRef skeleton;
+
+private:
+  Pointer owner_;
+  T* part_;
+  int structure_;
+};
+
+} // namespace pydart2

@@ -1,0 +1,417 @@
+#include "handles/skeleton.hpp"
+
+#include <algorithm>
+
+#include "base/checks.hpp"
+#include "loading/root_joint.hpp"
+
+namespace pydart2 {
+
+using dart::dynamics::DegreeOfFreedom;
+using dart::dynamics::Joint;
+
+namespace {
+
+void copy(const Eigen::VectorXd& values, Output& out)
+{
+  vector(out, values.size()) = values;
+}
+
+} // namespace
+
+SkeletonHandle::SkeletonHandle(WorldRef world, SkeletonRef skeleton)
+  : skeleton_(world, skeleton, skeleton->skeleton.get()),
+    dofs_(skeleton->skeleton->getDofs()),
+    state_(*skeleton->skeleton),
+    tree_(*skeleton->skeleton),
+    scratch_(static_cast<long>(dofs_.size()))
+{
+}
+
+void SkeletonHandle::gather(const std::vector<const double*>& places, Output& out) const
+{
+  skeleton_.get();
+  double* value = out.vector(static_cast<long>(places.size()));
+  for (const double* place : places)
+    *value++ = *place;
+}
+
+template <class Read>
+void SkeletonHandle::each_dof(Output& out, Read read) const
+{
+  skeleton_.get();
+  double* value = out.vector(static_cast<long>(dofs_.size()));
+  for (const DegreeOfFreedom* dof : dofs_)
+    *value++ = read(*dof);
+}
+
+const Eigen::VectorXd& SkeletonHandle::per_dof(const VectorIn& values, const char* what)
+{
+  skeleton_.get();
+  check::size(values.size, dofs_.size(), what);
+  check::finite(values, what);
+  scratch_ = values.eigen();
+  return scratch_;
+}
+
+int SkeletonHandle::id() const
+{
+  skeleton_.world->check();
+  return skeleton_.world->index_of(skeleton_.skeleton->skeleton);
+}
+
+std::string SkeletonHandle::name() const
+{
+  return skeleton().getName();
+}
+
+std::string SkeletonHandle::set_name(const std::string& name)
+{
+  return skeleton().setName(name);
+}
+
+double SkeletonHandle::mass() const
+{
+  return skeleton().getMass();
+}
+
+bool SkeletonHandle::is_mobile() const
+{
+  return skeleton().isMobile();
+}
+
+void SkeletonHandle::set_mobile(bool mobile)
+{
+  skeleton().setMobile(mobile);
+}
+
+bool SkeletonHandle::self_collision_check() const
+{
+  return skeleton().getSelfCollisionCheck();
+}
+
+void SkeletonHandle::set_self_collision_check(bool enable)
+{
+  skeleton().setSelfCollisionCheck(enable);
+}
+
+bool SkeletonHandle::adjacent_body_check() const
+{
+  return skeleton().getAdjacentBodyCheck();
+}
+
+void SkeletonHandle::set_adjacent_body_check(bool enable)
+{
+  skeleton().setAdjacentBodyCheck(enable);
+}
+
+int SkeletonHandle::num_bodynodes() const
+{
+  return static_cast<int>(skeleton().getNumBodyNodes());
+}
+
+int SkeletonHandle::num_joints() const
+{
+  return static_cast<int>(skeleton().getNumJoints());
+}
+
+int SkeletonHandle::num_dofs() const
+{
+  return static_cast<int>(skeleton().getNumDofs());
+}
+
+int SkeletonHandle::num_markers() const
+{
+  return static_cast<int>(skeleton().getNumMarkers());
+}
+
+BodyNodeHandle SkeletonHandle::bodynode(long index) const
+{
+  auto& skel = skeleton();
+  auto* body = skel.getBodyNode(check::index(index, skel.getNumBodyNodes(), "bodynode"));
+  return {skeleton_.world, skeleton_.skeleton, body};
+}
+
+JointHandle SkeletonHandle::joint(long index) const
+{
+  auto& skel = skeleton();
+  auto* joint = skel.getJoint(check::index(index, skel.getNumJoints(), "joint"));
+  return {skeleton_.world, skeleton_.skeleton, joint};
+}
+
+DofHandle SkeletonHandle::dof(long index) const
+{
+  auto& skel = skeleton();
+  auto* dof = skel.getDof(check::index(index, skel.getNumDofs(), "dof"));
+  return {skeleton_.world, skeleton_.skeleton, dof};
+}
+
+MarkerHandle SkeletonHandle::marker(long index) const
+{
+  auto& skel = skeleton();
+  auto* marker = skel.getMarker(check::index(index, skel.getNumMarkers(), "marker"));
+  return {skeleton_.world, skeleton_.skeleton, marker};
+}
+
+std::vector<std::string> SkeletonHandle::dof_names() const
+{
+  skeleton_.get();
+  std::vector<std::string> names;
+  for (const auto* dof : dofs_)
+    names.push_back(dof->getName());
+  return names;
+}
+
+void SkeletonHandle::positions(Output& like) const
+{
+  gather(state_.positions, like);
+}
+
+void SkeletonHandle::velocities(Output& like) const
+{
+  gather(state_.velocities, like);
+}
+
+void SkeletonHandle::accelerations(Output& like) const
+{
+  gather(state_.accelerations, like);
+}
+
+void SkeletonHandle::forces(Output& like) const
+{
+  each_dof(like, [](const DegreeOfFreedom& dof) { return dof.getForce(); });
+}
+
+void SkeletonHandle::commands(Output& like) const
+{
+  each_dof(like, [](const DegreeOfFreedom& dof) { return dof.getCommand(); });
+}
+
+void SkeletonHandle::set_positions(const VectorIn& positions)
+{
+  // Joint by joint; a method of dart::dynamics::Skeleton would make every dof a change of its own.
+  const auto& values = per_dof(positions, "positions");
+  for (std::size_t i = 0; i < dofs_.size();) {
+    auto& joint = *dofs_[i]->getJoint();
+    const auto size = joint.getNumDofs();
+    if (size == 1)
+      joint.setPosition(0, values[static_cast<long>(i)]);
+    else {
+      auto& of_joint = joint_scratch_[size];
+      of_joint = values.segment(static_cast<long>(i), static_cast<long>(size));
+      joint.setPositions(of_joint);
+    }
+    i += size;
+  }
+}
+
+void SkeletonHandle::set_velocities(const VectorIn& velocities)
+{
+  skeleton().setVelocities(per_dof(velocities, "velocities"));
+}
+
+void SkeletonHandle::set_accelerations(const VectorIn& accelerations)
+{
+  skeleton().setAccelerations(per_dof(accelerations, "accelerations"));
+}
+
+void SkeletonHandle::set_forces(const VectorIn& forces)
+{
+  const auto& values = per_dof(forces, "forces");
+  for (std::size_t i = 0; i < dofs_.size(); ++i)
+    dofs_[i]->setForce(values[static_cast<long>(i)]);
+}
+
+void SkeletonHandle::set_commands(const VectorIn& commands)
+{
+  skeleton().setCommands(per_dof(commands, "commands"));
+}
+
+void SkeletonHandle::states(Output& into) const
+{
+  skeleton_.get();
+  double* state = into.vector(2 * static_cast<long>(dofs_.size()));
+  for (const auto* places : {&state_.positions, &state_.velocities})
+    for (const double* place : *places)
+      *state++ = *place;
+}
+
+void SkeletonHandle::set_states(const VectorIn& states)
+{
+  auto& skel = skeleton();
+  check::size(states.size, 2 * dofs_.size(), "states [q, dq]");
+  check::finite(states, "states");
+  skel.setPositions(states.eigen().head(states.size / 2));
+  skel.setVelocities(states.eigen().tail(states.size / 2));
+}
+
+void SkeletonHandle::position_differences(const VectorIn& q1, const VectorIn& q2, Output& out) const
+{
+  auto& skel = skeleton();
+  for (const auto* q : {&q1, &q2}) {
+    check::size(q->size, dofs_.size(), "positions");
+    check::finite(*q, "positions");
+  }
+  copy(skel.getPositionDifferences(q1.eigen(), q2.eigen()), out);
+}
+
+void SkeletonHandle::velocity_differences(const VectorIn& dq1, const VectorIn& dq2, Output& out) const
+{
+  auto& skel = skeleton();
+  for (const auto* dq : {&dq1, &dq2}) {
+    check::size(dq->size, dofs_.size(), "velocities");
+    check::finite(*dq, "velocities");
+  }
+  copy(skel.getVelocityDifferences(dq1.eigen(), dq2.eigen()), out);
+}
+
+void SkeletonHandle::position_lower_limits(Output& out) const
+{
+  each_dof(out, [](const DegreeOfFreedom& dof) { return dof.getPositionLowerLimit(); });
+}
+
+void SkeletonHandle::position_upper_limits(Output& out) const
+{
+  each_dof(out, [](const DegreeOfFreedom& dof) { return dof.getPositionUpperLimit(); });
+}
+
+void SkeletonHandle::force_lower_limits(Output& out) const
+{
+  each_dof(out, [](const DegreeOfFreedom& dof) { return dof.getForceLowerLimit(); });
+}
+
+void SkeletonHandle::force_upper_limits(Output& out) const
+{
+  each_dof(out, [](const DegreeOfFreedom& dof) { return dof.getForceUpperLimit(); });
+}
+
+void SkeletonHandle::mass_matrix(Output& into)
+{
+  skeleton_.get();
+  const Eigen::MatrixXd& M = mass_matrix_.update(tree_);
+  // M is symmetric, so its columns are its rows.
+  std::copy(M.data(), M.data() + M.size(), into.matrix(M.rows(), M.cols()));
+}
+
+void SkeletonHandle::inv_mass_matrix(Output& into) const
+{
+  const Eigen::MatrixXd& inverse = skeleton().getInvMassMatrix();
+  matrix(into, inverse.rows(), inverse.cols()) = inverse;
+}
+
+void SkeletonHandle::coriolis_and_gravity_forces(Output& into)
+{
+  skeleton_.get();
+  copy(bias_forces_.update(tree_), into);
+}
+
+void SkeletonHandle::coriolis_forces(Output& out) const
+{
+  copy(skeleton().getCoriolisForces(), out);
+}
+
+void SkeletonHandle::gravity_forces(Output& out) const
+{
+  copy(skeleton().getGravityForces(), out);
+}
+
+void SkeletonHandle::external_forces(Output& out) const
+{
+  copy(skeleton().getExternalForces(), out);
+}
+
+void SkeletonHandle::constraint_forces(Output& into) const
+{
+  copy(skeleton().getConstraintForces(), into);
+}
+
+dart::dynamics::Skeleton& SkeletonHandle::with_mass() const
+{
+  auto& skeleton = this->skeleton();
+  if (skeleton.getMass() == 0) // the engine asserts
+    throw Error(Kind::value, "skeleton '" + skeleton.getName() + "' has no mass, so it has no centre of mass");
+  return skeleton;
+}
+
+void SkeletonHandle::com(Output& into) const
+{
+  const auto& skel = with_mass();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(); // as Skeleton::getCOM(), which copies the transform of each body twice
+  for (const auto* body : skel.getBodyNodes())
+    sum += body->getMass() * (body->getWorldTransform() * body->getLocalCOM());
+  vector(into, 3) = sum / skel.getMass();
+}
+
+Eigen::Vector3d SkeletonHandle::com_velocity() const
+{
+  return with_mass().getCOMLinearVelocity();
+}
+
+Eigen::Vector3d SkeletonHandle::com_acceleration() const
+{
+  return with_mass().getCOMLinearAcceleration();
+}
+
+Vector6d SkeletonHandle::com_spatial_velocity() const
+{
+  return with_mass().getCOMSpatialVelocity();
+}
+
+double SkeletonHandle::kinetic_energy() const
+{
+  return skeleton().computeKineticEnergy();
+}
+
+double SkeletonHandle::potential_energy() const
+{
+  return skeleton().computePotentialEnergy();
+}
+
+void SkeletonHandle::clear_external_forces()
+{
+  skeleton().clearExternalForces();
+}
+
+void SkeletonHandle::clear_impulse()
+{
+  skeleton().clearConstraintImpulses();
+}
+
+void SkeletonHandle::update_fk()
+{
+  skeleton().computeForwardKinematics();
+}
+
+void SkeletonHandle::check_tree_can_change(const char* what) const
+{
+  if (skeleton().getNumBodyNodes() == 0)
+    throw Error(Kind::value, std::string(what) + " needs a skeleton with a body; '" + name() + "' has none");
+  for (const auto& record : skeleton_.world->constraints)
+    if (record.skeleton1 == skeleton_.skeleton->skeleton || record.skeleton2 == skeleton_.skeleton->skeleton)
+      throw Error(
+          Kind::value,
+          std::string(what) + " cannot change skeleton '" + name()
+              + "' while a constraint holds it; call world.remove_all_constraints() first");
+}
+
+void SkeletonHandle::set_root_joint_to_trans_and_euler()
+{
+  check_tree_can_change("set_root_joint_to_trans_and_euler()");
+  change_root_to_trans_and_euler(skeleton());
+  tree_changed(RootChange::trans_and_euler);
+}
+
+void SkeletonHandle::set_root_joint_to_weld()
+{
+  check_tree_can_change("set_root_joint_to_weld()");
+  change_root_to_weld(skeleton());
+  tree_changed(RootChange::weld);
+}
+
+void SkeletonHandle::tree_changed(RootChange change)
+{
+  skeleton_.skeleton->root_changes.push_back(change);
+  ++skeleton_.skeleton->structure;
+}
+
+} // namespace pydart2

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/arrays.hpp"
+#include "dynamics/bias_forces.hpp"
+#include "dynamics/mass_matrix.hpp"
+#include "handles/bodynode.hpp"
+#include "handles/dof.hpp"
+#include "handles/joint.hpp"
+#include "handles/marker.hpp"
+#include "handles/part.hpp"
+#include "state/dof_state.hpp"
+
+namespace pydart2 {
+
+/// dart::dynamics::Skeleton. A vector over the dofs comes out as a vector "like" the one passed in: new with the same
+/// names if that is a pattern (named_vector.hpp), else written to it.
+class SkeletonHandle
+{
+public:
+  SkeletonHandle(WorldRef world, SkeletonRef skeleton);
+
+  /// Index in the world, -1 if it was removed.
+  int id() const;
+  std::string name() const;
+  std::string set_name(const std::string& name);
+  double mass() const;
+  bool is_mobile() const;
+  void set_mobile(bool mobile);
+  bool self_collision_check() const;
+  void set_self_collision_check(bool enable);
+  bool adjacent_body_check() const;
+  void set_adjacent_body_check(bool enable);
+
+  int num_bodynodes() const;
+  int num_joints() const;
+  int num_dofs() const;
+  int num_markers() const;
+  BodyNodeHandle bodynode(long index) const;
+  JointHandle joint(long index) const;
+  DofHandle dof(long index) const;
+  MarkerHandle marker(long index) const;
+  std::vector<std::string> dof_names() const;
+
+  void positions(Output& like) const;
+  void velocities(Output& like) const;
+  void accelerations(Output& like) const;
+  void forces(Output& like) const;
+  void commands(Output& like) const;
+  void set_positions(const VectorIn& positions);
+  void set_velocities(const VectorIn& velocities);
+  void set_accelerations(const VectorIn& accelerations);
+  void set_forces(const VectorIn& forces);
+  void set_commands(const VectorIn& commands);
+
+  /// [q, dq].
+  void states(Output& into) const;
+  void set_states(const VectorIn& states);
+
+  /// q1 - q2 and dq1 - dq2 on the configuration manifold.
+  void position_differences(const VectorIn& q1, const VectorIn& q2, Output& out) const;
+  void velocity_differences(const VectorIn& dq1, const VectorIn& dq2, Output& out) const;
+
+  void position_lower_limits(Output& out) const;
+  void position_upper_limits(Output& out) const;
+  void force_lower_limits(Output& out) const;
+  void force_upper_limits(Output& out) const;
+
+  void mass_matrix(Output& into);
+  void inv_mass_matrix(Output& into) const;
+  void coriolis_and_gravity_forces(Output& into);
+  void coriolis_forces(Output& out) const;
+  void gravity_forces(Output& out) const;
+  void external_forces(Output& out) const;
+  void constraint_forces(Output& into) const;
+
+  void com(Output& into) const;
+  Eigen::Vector3d com_velocity() const;
+  Eigen::Vector3d com_acceleration() const;
+  Vector6d com_spatial_velocity() const;
+  double kinetic_energy() const;
+  double potential_energy() const;
+
+  void clear_external_forces();
+  void clear_impulse();
+  void update_fk();
+
+  /// A new massless root under TranslationalJoint root_t, the old root below it under EulerJoint root_r (XYZ).
+  /// Positions are not converted. Every handle into this skeleton must be taken again.
+  void set_root_joint_to_trans_and_euler();
+
+  /// Every handle into this skeleton must be taken again.
+  void set_root_joint_to_weld();
+
+private:
+  dart::dynamics::Skeleton& skeleton() const { return *skeleton_; }
+  dart::dynamics::Skeleton& with_mass() const;
+  void check_tree_can_change(const char* what) const;
+  void tree_changed(RootChange change);
+
+  /// Writes the numbers at the given places, or one number of each dof.
+  void gather(const std::vector<const double*>& places, Output& out) const;
+  template <class Read>
+  void each_dof(Output& out, Read read) const;
+
+  /// Checks the vector and copies it to where DART takes it from without an allocation.
+  const Eigen::VectorXd& per_dof(const VectorIn& values, const char* what);
+
+  Part<dart::dynamics::Skeleton, dart::dynamics::Skeleton*> skeleton_; // SkeletonRecord owns it
+  std::vector<dart::dynamics::DegreeOfFreedom*> dofs_;
+  DofState state_;
+  LinkTree tree_;
+  MassMatrix mass_matrix_;
+  BiasForces bias_forces_;
+  Eigen::VectorXd scratch_;
+  std::array<Eigen::VectorXd, 7> joint_scratch_; // by the number of dofs
+};
+
+} // namespace pydart2

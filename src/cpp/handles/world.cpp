@@ -1,0 +1,409 @@
+#include "handles/world.hpp"
+
+#include <algorithm>
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/dynamics/SoftBodyNode.hpp>
+
+#include "base/checks.hpp"
+#include "base/errors.hpp"
+#include "base/messages.hpp"
+#include "collision/detector.hpp"
+#include "contact/fast_solver.hpp"
+#include "loading/loading.hpp"
+#include "state/contact.hpp"
+#include "state/manager.hpp"
+#include "state/state.hpp"
+#include "state/stepping.hpp"
+#include "state/world_states.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+dart::simulation::WorldPtr make_world(double time_step)
+{
+  check::positive(time_step, "time step");
+  auto world = dart::simulation::World::create();
+  world->setTimeStep(time_step);
+  return world;
+}
+
+void record(WorldRecord& world)
+{
+  const auto& frame
+      = world.recording.add(static_cast<std::size_t>(num_states(world)), num_contacts(world), world.layout());
+  write_states(world, frame.state);
+  write_contacts(world, frame.contacts());
+}
+
+void reset_skeleton(dart::dynamics::Skeleton& skeleton)
+{
+  skeleton.resetCommands();
+  skeleton.resetPositions();
+  skeleton.resetVelocities();
+  skeleton.resetAccelerations();
+  skeleton.resetGeneralizedForces();
+  skeleton.clearExternalForces();
+  skeleton.clearConstraintImpulses();
+  for (std::size_t i = 0; i < skeleton.getNumSoftBodyNodes(); ++i)
+    for (auto* point : skeleton.getSoftBodyNode(i)->getPointMasses()) {
+      point->resetPositions();
+      point->resetVelocities();
+      point->resetAccelerations();
+      point->resetForces();
+    }
+}
+
+const Frame& kept_frame(const WorldRecord& world, long index)
+{
+  const Frame* frame = world.recording.find(index);
+  if (frame == nullptr)
+    throw Error(
+        Kind::index,
+        "frame " + std::to_string(index) + " is not kept; the recording has frames "
+            + std::to_string(world.recording.first_frame()) + " to " + std::to_string(world.recording.num_frames() - 1));
+  return *frame;
+}
+
+} // namespace
+
+void restart()
+{
+  Manager::instance().restart();
+  messages::forget();
+}
+
+WorldHandle::WorldHandle(WorldRef record) : record_(std::move(record)) {}
+
+WorldHandle::WorldHandle(double time_step) : record_(Manager::instance().add(make_world(time_step))) {}
+
+WorldHandle WorldHandle::load(const ModelSource& source)
+{
+  return WorldHandle(Manager::instance().add(with_ode([&] { return load_world(source); }), source.packed()));
+}
+
+WorldHandle WorldHandle::find(long id)
+{
+  return WorldHandle(Manager::instance().find(id));
+}
+
+WorldRecord& WorldHandle::world() const
+{
+  record_->check();
+  return *record_;
+}
+
+void WorldHandle::destroy()
+{
+  if (record_->state != WorldRecord::State::destroyed)
+    Manager::instance().destroy(*record_);
+}
+
+int WorldHandle::num_skeletons() const
+{
+  return static_cast<int>(world().skeletons.size());
+}
+
+SkeletonHandle WorldHandle::skeleton(long index) const
+{
+  const auto& skeletons = world().skeletons;
+  return {record_, skeletons[check::index(index, skeletons.size(), "skeleton")]};
+}
+
+int WorldHandle::add_skeleton(const ModelSource& source)
+{
+  record_->add(load_skeleton(source), source.packed());
+  return static_cast<int>(record_->skeletons.size()) - 1;
+}
+
+void WorldHandle::remove_skeleton(long index)
+{
+  auto& record = world();
+  const auto i = check::index(index, record.skeletons.size(), "skeleton");
+  const auto skeleton = record.skeletons[i]->skeleton;
+  auto& solver = *record.world->getConstraintSolver();
+  for (auto it = record.constraints.begin(); it != record.constraints.end();) {
+    const bool uses = it->skeleton1 == skeleton || it->skeleton2 == skeleton;
+    if (uses)
+      solver.removeConstraint(it->constraint);
+    it = uses ? record.constraints.erase(it) : std::next(it);
+  }
+  auto& pairs = record.ignored_pairs;
+  const auto has_skeleton = [&](const auto& pair) {
+    return pair.first->getSkeleton() == skeleton || pair.second->getSkeleton() == skeleton;
+  };
+  if (std::any_of(pairs.begin(), pairs.end(), has_skeleton)) {
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), has_skeleton), pairs.end());
+    apply_ignored_pairs(record);
+  }
+  const auto lock = lock_ode();
+  solver.clearLastCollisionResult(); // it points to collision objects that go
+  record.world->removeSkeleton(skeleton);
+  record.removals += ++record.skeletons[i]->structure; // parts of a skeleton without a world are refused
+  record.skeletons.erase(record.skeletons.begin() + static_cast<long>(i));
+}
+
+double WorldHandle::time() const
+{
+  return world().world->getTime();
+}
+
+void WorldHandle::set_time(double time)
+{
+  check::finite(time, "time");
+  world().world->setTime(time);
+}
+
+double WorldHandle::time_step() const
+{
+  return world().world->getTimeStep();
+}
+
+void WorldHandle::set_time_step(double time_step)
+{
+  check::positive(time_step, "time step");
+  world().world->setTimeStep(time_step);
+}
+
+Eigen::Vector3d WorldHandle::gravity() const
+{
+  return world().world->getGravity();
+}
+
+void WorldHandle::set_gravity(const Eigen::Vector3d& gravity)
+{
+  check::finite(gravity, "gravity");
+  world().world->setGravity(gravity);
+}
+
+long WorldHandle::frame() const
+{
+  return world().frame;
+}
+
+void WorldHandle::reset()
+{
+  auto& record = world();
+  record.world->reset();
+  for (const auto& skeleton : record.skeletons)
+    reset_skeleton(*skeleton->skeleton);
+  if (record.frame > 0) // a fresh world's detector has the engine's own order of contacts
+    forget_history(record);
+  fast_solver(*record.world).warm_lcp().forget();
+  record.frame = 0;
+  if (record.recording.enabled())
+    clear_recording();
+}
+
+void WorldHandle::step(long count)
+{
+  if (count < 0)
+    throw Error(Kind::value, "the number of steps must be zero or positive, got " + std::to_string(count));
+  for (long i = 0; i < count; ++i) {
+    advance(*record_);
+    if (record_->recording.enabled())
+      record(*record_);
+  }
+}
+
+void WorldHandle::check_collision()
+{
+  pydart2::check_collision(*record_);
+}
+
+void WorldHandle::states(Output& into) const
+{
+  const auto& record = world();
+  write_states(record, into.vector(num_states(record)));
+}
+
+void WorldHandle::set_states(const VectorIn& states)
+{
+  auto& record = world();
+  check::size(states.size, static_cast<std::size_t>(num_states(record)), "world states");
+  check::finite(states, "world states");
+  read_states(record, states.data);
+}
+
+std::string WorldHandle::collision_detector() const
+{
+  return world().world->getConstraintSolver()->getCollisionDetector()->getType();
+}
+
+void WorldHandle::set_collision_detector(const std::string& name)
+{
+  use_detector(*world().world->getConstraintSolver(), make_detector(name));
+}
+
+std::string WorldHandle::constraint_solver() const
+{
+  return name_of(fast_solver(*world().world).solver());
+}
+
+void WorldHandle::set_constraint_solver(const std::string& name)
+{
+  fast_solver(*world().world).set_solver(solver_named(name));
+}
+
+bool WorldHandle::contact_reduction() const
+{
+  return fast_solver(*world().world).contact_reduction();
+}
+
+void WorldHandle::set_contact_reduction(bool enable)
+{
+  fast_solver(*world().world).set_contact_reduction(enable);
+}
+
+bool WorldHandle::warm_start() const
+{
+  return fast_solver(*world().world).warm_start();
+}
+
+void WorldHandle::set_warm_start(bool enable)
+{
+  fast_solver(*world().world).set_warm_start(enable);
+}
+
+void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)
+{
+  auto& record = world();
+  for (const auto* body : {&body1.body(), &body2.body()})
+    if (record.index_of(body->getSkeleton()) < 0)
+      throw Error(Kind::value, "body '" + body->getName() + "' is not in this world");
+  auto& pairs = record.ignored_pairs;
+  auto pair = std::pair(&body1.body(), &body2.body());
+  if (pair.second < pair.first)
+    std::swap(pair.first, pair.second); // one entry for both orders
+  pairs.erase(std::remove(pairs.begin(), pairs.end(), pair), pairs.end());
+  if (ignore)
+    pairs.push_back(pair);
+  apply_ignored_pairs(record);
+}
+
+void WorldHandle::ignore_no_pair()
+{
+  auto& record = world();
+  record.ignored_pairs.clear();
+  apply_ignored_pairs(record);
+}
+
+int WorldHandle::num_contacts() const
+{
+  return static_cast<int>(pydart2::num_contacts(world()));
+}
+
+void WorldHandle::contacts(Output& out) const
+{
+  const auto& record = world();
+  write_contacts(record, out.matrix(static_cast<long>(pydart2::num_contacts(record)), contact_columns));
+}
+
+void WorldHandle::add_ball_joint_constraint(
+    const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point)
+{
+  auto& record = world();
+  check::finite(point, "joint position");
+  auto& a = body1.body();
+  auto& b = body2.body();
+  if (record.index_of(a.getSkeleton()) < 0 || record.index_of(b.getSkeleton()) < 0)
+    throw Error(Kind::value, "both bodies of a constraint must be in the world that it is added to");
+  if (&a == &b)
+    throw Error(Kind::value, "a constraint needs two different bodies, got '" + a.getName() + "' twice");
+  record.constraints.push_back(add_ball_joint(*record.world->getConstraintSolver(), a, b, point));
+}
+
+int WorldHandle::num_constraints() const
+{
+  return static_cast<int>(world().constraints.size());
+}
+
+void WorldHandle::remove_all_constraints()
+{
+  auto& record = world();
+  record.world->getConstraintSolver()->removeAllConstraints();
+  record.constraints.clear();
+}
+
+bool WorldHandle::is_recording() const
+{
+  return world().recording.enabled();
+}
+
+void WorldHandle::set_recording(bool enable)
+{
+  auto& record = world();
+  if (enable == record.recording.enabled())
+    return;
+  record.recording.set_enabled(enable);
+  if (enable)
+    pydart2::record(record);
+}
+
+long WorldHandle::num_frames() const
+{
+  return world().recording.num_frames();
+}
+
+long WorldHandle::first_frame() const
+{
+  return world().recording.first_frame();
+}
+
+bool WorldHandle::set_frame(long index)
+{
+  auto& record = world();
+  const Frame* frame = record.recording.find(index);
+  if (frame == nullptr || frame->layout != record.layout())
+    return false;
+  // A skeleton that was added after this frame keeps its state.
+  std::vector<double> states(static_cast<std::size_t>(num_states(record)));
+  write_states(record, states.data());
+  std::copy(frame->state, frame->contacts(), states.begin());
+  read_states(record, states.data());
+  return true;
+}
+
+void WorldHandle::frame_states(long index, Output& out) const
+{
+  const auto& frame = kept_frame(world(), index);
+  std::copy(frame.state, frame.contacts(), out.vector(static_cast<long>(frame.num_states)));
+}
+
+void WorldHandle::frame_contacts(long index, Output& out) const
+{
+  const auto& frame = kept_frame(world(), index);
+  double* rows = out.matrix(static_cast<long>(frame.num_contacts), contact_columns);
+  std::copy(frame.contacts(), frame.contacts() + frame.num_contacts * contact_columns, rows);
+}
+
+void WorldHandle::clear_recording()
+{
+  auto& record = world();
+  record.recording.clear();
+  pydart2::record(record);
+}
+
+void WorldHandle::record_frame()
+{
+  record(world());
+}
+
+long WorldHandle::recording_bytes() const
+{
+  return static_cast<long>(world().recording.bytes());
+}
+
+long WorldHandle::recording_limit() const
+{
+  return static_cast<long>(world().recording.limit());
+}
+
+void WorldHandle::set_recording_limit(long bytes)
+{
+  if (bytes < 0)
+    throw Error(Kind::value, "the recording limit must be zero or more bytes, got " + std::to_string(bytes));
+  world().recording.set_limit(static_cast<std::size_t>(bytes));
+}
+
+} // namespace pydart2

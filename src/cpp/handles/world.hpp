@@ -1,0 +1,128 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "base/arrays.hpp"
+#include "handles/bodynode.hpp"
+#include "handles/skeleton.hpp"
+#include "loading/model_source.hpp"
+#include "state/blueprint.hpp"
+#include "state/world_record.hpp"
+
+namespace pydart2 {
+
+/// Ends all worlds, starts ids at 0 again and forgets which messages came already.
+void restart();
+
+/// dart::simulation::World, its contacts and its recording.
+class WorldHandle
+{
+public:
+  /// An empty world with DART's own gravity.
+  explicit WorldHandle(double time_step);
+
+  /// The world of a model source that has one.
+  static WorldHandle load(const ModelSource& source);
+
+  /// The world of an id, if it lives.
+  static WorldHandle find(long id);
+
+  int id() const { return record_->id; }
+  void destroy();
+
+  int num_skeletons() const;
+  SkeletonHandle skeleton(long index) const;
+
+  /// Adds the skeleton of a model source; returns its index.
+  int add_skeleton(const ModelSource& source);
+  void remove_skeleton(long index);
+
+  double time() const;
+  void set_time(double time);
+  double time_step() const;
+  void set_time_step(double time_step);
+  Eigen::Vector3d gravity() const;
+  void set_gravity(const Eigen::Vector3d& gravity);
+
+  long frame() const;
+
+  /// Time 0, initial positions and velocities, no forces, no impulses, a new recording.
+  void reset();
+  void step(long count);
+  void check_collision();
+
+  /// [q, dq] of each skeleton, one after another.
+  void states(Output& into) const;
+  void set_states(const VectorIn& states);
+
+  /// "dart", "fcl", "bullet" or "ode".
+  std::string collision_detector() const;
+  void set_collision_detector(const std::string& name);
+
+  /// "fast" or "dart".
+  std::string constraint_solver() const;
+  void set_constraint_solver(const std::string& name);
+
+  /// At most four contacts of each pair of faces.
+  bool contact_reduction() const;
+  void set_contact_reduction(bool enable);
+  bool warm_start() const;
+  void set_warm_start(bool enable);
+
+  /// Two bodies that do not collide with each other, or do again.
+  void ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore);
+  void ignore_no_pair();
+
+  int num_contacts() const;
+
+  /// One row per contact (contact.hpp).
+  void contacts(Output& out) const;
+
+  void add_ball_joint_constraint(const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point);
+  int num_constraints() const;
+  void remove_all_constraints();
+
+  /// All that a step changes and the next one depends on. With `exact` the world first forgets what its detector and
+  /// its constraints remember of earlier steps, so that its next steps are those after restore(), bit for bit.
+  void snapshot(bool exact, Output& out);
+  void restore(const VectorIn& snapshot);
+
+  /// All that a user may have changed and a step does not.
+  std::vector<std::string> model_texts() const;
+  void model_numbers(Output& out) const;
+
+  /// What rebuild() makes a world of its own from that is equal in everything but its recording, which is off.
+  Blueprint blueprint() const;
+  static WorldHandle rebuild(const Blueprint& blueprint);
+
+  bool is_recording() const;
+  void set_recording(bool enable);
+  long num_frames() const;
+  long first_frame() const;
+
+  /// Puts the states of a recorded frame back; false if it is not kept. Time and frame stay as they are.
+  bool set_frame(long index);
+  void frame_states(long index, Output& out) const;
+  void frame_contacts(long index, Output& out) const;
+  void clear_recording();
+  void record_frame();
+  long recording_bytes() const;
+  long recording_limit() const;
+  void set_recording_limit(long bytes);
+
+  /// For add_skeleton(), step(), check_collision() and clone(), whose caller holds it. Refuses a world in use.
+  Busy claim() const { return Busy(*record_); }
+
+  /// For the C++ of this layer.
+  const WorldRef& ref() const { return record_; }
+
+private:
+  explicit WorldHandle(WorldRef record);
+  WorldRecord& world() const;
+
+  WorldRef record_;
+};
+
+} // namespace pydart2

@@ -1,0 +1,59 @@
+// What WorldHandle offers of state.hpp, model.hpp and clone.hpp.
+
+#include <algorithm>
+
+#include "base/archive.hpp"
+#include "handles/world.hpp"
+#include "state/clone.hpp"
+#include "state/model.hpp"
+#include "state/state.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+void write(const std::vector<double>& numbers, Output& out)
+{
+  std::copy(numbers.begin(), numbers.end(), out.vector(static_cast<long>(numbers.size())));
+}
+
+} // namespace
+
+void WorldHandle::snapshot(bool exact, Output& out)
+{
+  auto& record = world();
+  if (exact)
+    forget_history(record);
+  write(state_of(record), out);
+}
+
+void WorldHandle::restore(const VectorIn& snapshot)
+{
+  restore_state(world(), {snapshot.data, snapshot.data + snapshot.size});
+}
+
+std::vector<std::string> WorldHandle::model_texts() const
+{
+  Archive archive;
+  visit_model(archive, world());
+  return archive.texts;
+}
+
+void WorldHandle::model_numbers(Output& out) const
+{
+  Archive archive;
+  visit_model(archive, world());
+  write(archive.numbers, out);
+}
+
+Blueprint WorldHandle::blueprint() const
+{
+  return blueprint_of(world());
+}
+
+WorldHandle WorldHandle::rebuild(const Blueprint& blueprint)
+{
+  return WorldHandle(build(blueprint));
+}
+
+} // namespace pydart2

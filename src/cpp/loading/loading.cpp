@@ -1,0 +1,185 @@
+#include "loading/loading.hpp"
+
+#include <cmath>
+#include <dart/dynamics/DegreeOfFreedom.hpp>
+#include <dart/utils/SkelParser.hpp>
+#include <dart/utils/VskParser.hpp>
+#include <dart/utils/mjcf/MjcfParser.hpp>
+#include <dart/utils/sdf/SdfParser.hpp>
+#include <dart/utils/urdf/DartLoader.hpp>
+
+#include "base/errors.hpp"
+#include "base/messages.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+using dart::dynamics::BodyNode;
+using dart::dynamics::Skeleton;
+using dart::dynamics::SkeletonPtr;
+using dart::simulation::WorldPtr;
+
+/// Runs one of DART's parsers; whatever it throws and its null both become a LoadError.
+template <class Parse>
+auto parse(Parse&& parser)
+{
+  const messages::Listening listening;
+  decltype(parser()) result;
+  std::string reason;
+  try {
+    result = parser();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (result)
+    return result;
+  const std::string problems = messages::problems();
+  if (!problems.empty())
+    reason = problems;
+  throw Error(Kind::load, reason.empty() ? "the engine finds no valid model in it" : "the engine says: " + reason);
+}
+
+void check_body(const BodyNode& body)
+{
+  const auto refuse = [&](const std::string& what) {
+    throw Error(Kind::load, "body '" + body.getName() + "': " + what);
+  };
+  const auto& inertia = body.getInertia();
+  if (!std::isfinite(inertia.getMass()) || inertia.getMass() < 0.0)
+    refuse("its mass must be zero or positive, got " + std::to_string(inertia.getMass()));
+  if (!inertia.getSpatialTensor().allFinite())
+    refuse("its inertia is not finite");
+  const auto& joint = *body.getParentJoint();
+  if (!joint.getTransformFromParentBodyNode().matrix().allFinite()
+      || !joint.getTransformFromChildBodyNode().matrix().allFinite())
+    refuse("the transform of its joint '" + joint.getName() + "' is not finite");
+  if (!joint.getPositions().allFinite() || !joint.getVelocities().allFinite())
+    refuse("the position or velocity of its joint '" + joint.getName() + "' is not finite");
+  for (const auto* node : body.getShapeNodes())
+    if (!node->getRelativeTransform().matrix().allFinite())
+      refuse("the transform of its shape '" + node->getName() + "' is not finite");
+}
+
+/// The parsers leave nodes without a shape where a mesh cannot be read, and have said so.
+void remove_empty_shapes(BodyNode& body, bool lenient)
+{
+  for (auto* node : body.getShapeNodes()) { // a copy of the list
+    if (node->getShape())
+      continue;
+    if (node->getCollisionAspect() != nullptr && !lenient)
+      throw Error(
+          Kind::load,
+          "body '" + body.getName() + "': its collision shape '" + node->getName() + "' cannot be read; "
+              + messages::problems());
+    node->remove();
+  }
+}
+
+void check_skeleton(Skeleton& skeleton, bool lenient)
+{
+  if (skeleton.getNumBodyNodes() == 0)
+    throw Error(Kind::load, "skeleton '" + skeleton.getName() + "' has no bodies");
+  for (auto* body : skeleton.getBodyNodes()) {
+    remove_empty_shapes(*body, lenient);
+    check_body(*body);
+  }
+}
+
+/// Not by createFromPath(), which takes '#' and '?' in a path for parts of a URI.
+dart::common::Uri uri_of(const ModelSource& source)
+{
+  dart::common::Uri uri;
+  uri.mScheme = "file";
+  uri.mAuthority = "";
+  uri.mPath = source.path();
+  return uri;
+}
+
+dart::utils::DartLoader urdf_loader(const ModelSource& source)
+{
+  return dart::utils::DartLoader(dart::utils::DartLoader::Options(make_retriever(source)));
+}
+
+/// Where the file places its robots they are after a reset, too.
+WorldPtr parse_urdf_world(const ModelSource& source)
+{
+  const auto world = urdf_loader(source).parseWorld(uri_of(source));
+  for (std::size_t i = 0; world && i < world->getNumSkeletons(); ++i)
+    for (auto* dof : world->getSkeleton(i)->getDofs())
+      dof->setInitialPosition(dof->getPosition());
+  return world;
+}
+
+WorldPtr parse_world(const ModelSource& source)
+{
+  using namespace dart::utils;
+  const auto uri = uri_of(source);
+  const auto retriever = make_retriever(source);
+  if (source.kind() == "skel")
+    return SkelParser::readWorld(uri, retriever);
+  if (source.kind() == "sdf")
+    return SdfParser::readWorld(uri, SdfParser::Options(retriever));
+  if (source.kind() == "urdf_world")
+    return parse_urdf_world(source);
+  if (source.kind() == "mjcf")
+    return MjcfParser::readWorld(uri, MjcfParser::Options(retriever));
+  throw Error(Kind::value, "no worlds of kind '" + source.kind() + "'");
+}
+
+/// The one moving skeleton of an MJCF file; its ground and sites are skeletons of their own to DART.
+SkeletonPtr parse_mjcf_skeleton(const ModelSource& source)
+{
+  const auto world = parse_world(source);
+  SkeletonPtr found;
+  for (std::size_t i = 0; world && i < world->getNumSkeletons(); ++i) {
+    const auto skeleton = world->getSkeleton(i);
+    if (!skeleton->isMobile())
+      continue;
+    if (found)
+      throw Error(Kind::load, "it is a world of several skeletons; load it with World(step, file)");
+    found = skeleton;
+  }
+  return found;
+}
+
+SkeletonPtr parse_skeleton(const ModelSource& source)
+{
+  using namespace dart::utils;
+  const auto uri = uri_of(source);
+  const auto retriever = make_retriever(source);
+  if (source.kind() == "skel")
+    return SkelParser::readSkeleton(uri, retriever);
+  if (source.kind() == "sdf")
+    return SdfParser::readSkeleton(uri, SdfParser::Options(retriever));
+  if (source.kind() == "urdf")
+    return urdf_loader(source).parseSkeleton(uri);
+  if (source.kind() == "vsk")
+    return VskParser::readSkeleton(uri, VskParser::Options(retriever));
+  if (source.kind() == "mjcf")
+    return parse_mjcf_skeleton(source);
+  throw Error(Kind::value, "no skeletons of kind '" + source.kind() + "'");
+}
+
+} // namespace
+
+WorldPtr load_world(const ModelSource& source)
+{
+  const auto world = parse([&] { return parse_world(source); });
+  if (!world->getGravity().allFinite())
+    throw Error(Kind::load, "its gravity is not finite");
+  for (std::size_t i = 0; i < world->getNumSkeletons(); ++i)
+    check_skeleton(*world->getSkeleton(i), source.lenient());
+  return world;
+}
+
+SkeletonPtr load_skeleton(const ModelSource& source)
+{
+  auto skeleton = parse([&] { return parse_skeleton(source); });
+  check_skeleton(*skeleton, source.lenient());
+  return skeleton;
+}
+
+} // namespace pydart2

@@ -1,0 +1,113 @@
+#include "state/clone.hpp"
+
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "collision/detector.hpp"
+#include "loading/loading.hpp"
+#include "loading/root_joint.hpp"
+#include "state/manager.hpp"
+#include "state/model.hpp"
+#include "state/state.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+using dart::simulation::WorldPtr;
+
+ModelSource unpacked(const std::string& source)
+{
+  std::istringstream in(source);
+  return unpack_source(in);
+}
+
+WorldPtr world_from(const std::string& source)
+{
+  if (source.empty())
+    return dart::simulation::World::create();
+  return load_world(unpacked(source));
+}
+
+/// The plan: the world's source, its detector, and for each skeleton its source, its index in the world that it came
+/// with, its root changes.
+constexpr std::size_t texts_of_world = 2, texts_per_skeleton = 3;
+
+std::vector<std::string> plan_of(const WorldRecord& world)
+{
+  std::vector<std::string> plan{world.source, world.world->getConstraintSolver()->getCollisionDetector()->getType()};
+  for (const auto& item : world.skeletons) {
+    std::string changes;
+    for (const auto change : item->root_changes)
+      changes += change == RootChange::weld ? 'w' : 'e';
+    plan.insert(plan.end(), {item->source, std::to_string(item->index_in_source), changes});
+  }
+  return plan;
+}
+
+/// Takes away what came with the world and is not in the plan.
+void remove_others(WorldRecord& world, const std::vector<std::string>& plan)
+{
+  const auto lock = lock_ode();
+  for (auto item = world.skeletons.begin(); item != world.skeletons.end();) {
+    bool wanted = false;
+    for (std::size_t i = texts_of_world; i < plan.size(); i += texts_per_skeleton)
+      wanted |= plan[i].empty() && plan[i + 1] == std::to_string((*item)->index_in_source);
+    if (!wanted)
+      world.world->removeSkeleton((*item)->skeleton);
+    item = wanted ? item + 1 : world.skeletons.erase(item);
+  }
+}
+
+void change_root(SkeletonRecord& record, char change)
+{
+  const bool weld = change == 'w';
+  (weld ? change_root_to_weld : change_root_to_trans_and_euler)(*record.skeleton);
+  record.root_changes.push_back(weld ? RootChange::weld : RootChange::trans_and_euler);
+}
+
+void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
+{
+  remove_others(world, plan);
+  auto& solver = *world.world->getConstraintSolver();
+  if (plan[1] != solver.getCollisionDetector()->getType())
+    use_detector(solver, make_detector(plan[1])); // before there is anything that another one makes trees of
+  std::size_t index = 0;
+  for (std::size_t i = texts_of_world; i < plan.size(); i += texts_per_skeleton, ++index) {
+    if (!plan[i].empty())
+      world.add(load_skeleton(unpacked(plan[i])), plan[i]);
+    if (index >= world.skeletons.size())
+      Archive::refuse();
+    for (const char change : plan[i + 2])
+      change_root(*world.skeletons[index], change);
+  }
+}
+
+} // namespace
+
+Blueprint blueprint_of(WorldRecord& world)
+{
+  Archive model;
+  visit_model(model, world);
+  return {plan_of(world), model.texts, model.numbers, state_of(world)};
+}
+
+WorldRef build(const Blueprint& blueprint)
+{
+  const auto& plan = blueprint.plan;
+  if (plan.size() < texts_of_world || (plan.size() - texts_of_world) % texts_per_skeleton != 0)
+    Archive::refuse();
+  const auto world = Manager::instance().add(with_ode([&] { return world_from(plan[0]); }), plan[0]);
+  const Busy claim(*world); // another thread's init() would clear it
+  follow_plan(*world, plan);
+  Archive model(blueprint.texts, blueprint.numbers);
+  visit_model(model, *world);
+  model.finish();
+  restore_state(*world, blueprint.state);
+  const auto made = blueprint_of(*world);
+  if (made.texts != blueprint.texts || made.numbers != blueprint.numbers || made.state != blueprint.state)
+    throw Error(Kind::engine, "the world cannot be made again: the engine does not take some of its numbers back");
+  return world;
+}
+
+} // namespace pydart2

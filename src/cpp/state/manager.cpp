@@ -1,0 +1,62 @@
+#include "state/manager.hpp"
+
+#include <string>
+
+#include "base/errors.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+void end(WorldRecord& world)
+{
+  Busy claim(world); // refuses a world that another thread is stepping
+  claim.destroy();
+  world.clear();
+}
+
+} // namespace
+
+Manager& Manager::instance()
+{
+  static Manager manager;
+  return manager;
+}
+
+WorldRef Manager::add(dart::simulation::WorldPtr world, std::string source)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto record = std::make_shared<WorldRecord>(next_id_++, std::move(world), std::move(source));
+  worlds_.emplace(record->id, record);
+  for (auto it = worlds_.begin(); it != worlds_.end();)
+    it = it->second.expired() ? worlds_.erase(it) : std::next(it);
+  return record;
+}
+
+WorldRef Manager::find(long id)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (const auto it = worlds_.find(id); it != worlds_.end())
+    if (auto record = it->second.lock())
+      return record;
+  throw Error(Kind::index, "no world " + std::to_string(id) + ": none was made with this id, or it is gone");
+}
+
+void Manager::destroy(WorldRecord& world)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  end(world);
+  worlds_.erase(world.id);
+}
+
+void Manager::restart()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (auto& [id, world] : worlds_)
+    if (const auto record = world.lock())
+      end(*record);
+  worlds_.clear();
+  next_id_ = 0;
+}
+
+} // namespace pydart2

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "state/world_record.hpp"
+
+namespace pydart2 {
+
+/// World id -> world. Handles own their worlds; the manager gives ids and can end all worlds at once.
+class Manager
+{
+public:
+  static Manager& instance();
+
+  /// `source`: what it was loaded from (clone.hpp).
+  WorldRef add(dart::simulation::WorldPtr world, std::string source = {});
+
+  /// The world of an id; throws if there is none.
+  WorldRef find(long id);
+
+  /// Ends one world: every later use of a handle into it throws.
+  void destroy(WorldRecord& world);
+
+  /// Ends all worlds and starts ids at 0 again.
+  void restart();
+
+private:
+  std::mutex mutex_;
+  std::map<long, std::weak_ptr<WorldRecord>> worlds_;
+  int next_id_ = 0;
+};
+
+} // namespace pydart2

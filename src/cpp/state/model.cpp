@@ -1,0 +1,150 @@
+#include "state/model.hpp"
+
+#include <dart/dynamics/DegreeOfFreedom.hpp>
+#include <dart/dynamics/Marker.hpp>
+#include <dart/dynamics/SoftBodyNode.hpp>
+
+#include "collision/detector.hpp"
+#include "contact/fast_solver.hpp"
+#include "state/model_joints.hpp"
+#include "state/model_shapes.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+using namespace dart::dynamics;
+
+void visit_soft_body(Archive& archive, SoftBodyNode& body)
+{
+  archive.count(body.getNumPointMasses());
+  archive.number([&] { return body.getVertexSpringStiffness(); }, [&](double k) { body.setVertexSpringStiffness(k); });
+  archive.number([&] { return body.getEdgeSpringStiffness(); }, [&](double k) { body.setEdgeSpringStiffness(k); });
+  archive.number([&] { return body.getDampingCoefficient(); }, [&](double d) { body.setDampingCoefficient(d); });
+}
+
+/// Mass, COM and the moment of inertia about the COM (xx yy zz xy xz yz).
+Eigen::VectorXd inertia_of(const BodyNode& body)
+{
+  const auto& inertia = body.getInertia();
+  Eigen::VectorXd values(10);
+  for (int i = 0; i < 10; ++i)
+    values[i] = inertia.getParameter(static_cast<Inertia::Param>(i));
+  return values;
+}
+
+void set_inertia(BodyNode& body, const Eigen::VectorXd& v)
+{
+  body.setInertia(Inertia(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9]));
+}
+
+void visit_body(Archive& archive, BodyNode& body)
+{
+  archive.same(body.getName());
+  archive.vector([&] { return inertia_of(body); }, [&](const auto& values) { set_inertia(body, values); });
+  archive.number([&] { return double(body.getGravityMode()); }, [&](double on) { body.setGravityMode(on != 0.0); });
+  archive.number([&] { return double(body.isCollidable()); }, [&](double on) { body.setCollidable(on != 0.0); });
+  for (auto* node : body.getShapeNodes())
+    visit_shape(archive, *node);
+  if (auto* soft = body.asSoftBodyNode())
+    visit_soft_body(archive, *soft);
+}
+
+void visit_skeleton(Archive& archive, Skeleton& skeleton)
+{
+  archive.same(
+      std::to_string(skeleton.getNumBodyNodes()) + " bodies, " + std::to_string(skeleton.getNumDofs()) + " dofs, "
+      + std::to_string(skeleton.getNumMarkers()) + " markers");
+  for (const std::size_t number : {skeleton.getNumBodyNodes(), skeleton.getNumDofs(), skeleton.getNumMarkers()})
+    if (archive.count(number) != number) // the numbers are of another skeleton than the texts
+      Archive::refuse();
+  archive.text([&] { return skeleton.getName(); }, [&](const auto& name) { skeleton.setName(name); });
+  archive.number([&] { return double(skeleton.isMobile()); }, [&](double on) { skeleton.setMobile(on != 0.0); });
+  archive.number(
+      [&] { return double(skeleton.getSelfCollisionCheck()); },
+      [&](double on) { skeleton.setSelfCollisionCheck(on != 0.0); });
+  archive.number(
+      [&] { return double(skeleton.getAdjacentBodyCheck()); },
+      [&](double on) { skeleton.setAdjacentBodyCheck(on != 0.0); });
+  for (auto* body : skeleton.getBodyNodes())
+    visit_body(archive, *body);
+  visit_joints(archive, skeleton);
+  for (std::size_t i = 0; i < skeleton.getNumMarkers(); ++i) {
+    auto& marker = *skeleton.getMarker(i);
+    archive.same(marker.getName());
+    archive.vector(
+        [&] { return marker.getLocalPosition(); }, [&](const auto& p) { marker.setLocalPosition(Eigen::Vector3d(p)); });
+  }
+}
+
+/// A body as two numbers: index of its skeleton in the world, its own index.
+BodyNode* visit_reference(Archive& archive, const WorldRecord& world, const BodyNode* body)
+{
+  const auto index = [&] { return static_cast<std::size_t>(world.index_of(body->getSkeleton())); };
+  const auto skeleton = archive.count(body == nullptr ? 0 : index());
+  const auto own = archive.count(body == nullptr ? 0 : body->getIndexInSkeleton());
+  if (skeleton >= world.skeletons.size() || own >= world.skeletons[skeleton]->skeleton->getNumBodyNodes())
+    Archive::refuse();
+  return world.skeletons[skeleton]->skeleton->getBodyNode(own);
+}
+
+void visit_ignored_pairs(Archive& archive, WorldRecord& world)
+{
+  world.ignored_pairs.resize(archive.count(world.ignored_pairs.size()));
+  for (auto& [body1, body2] : world.ignored_pairs) {
+    body1 = visit_reference(archive, world, body1);
+    body2 = visit_reference(archive, world, body2);
+  }
+  if (archive.is_in())
+    apply_ignored_pairs(world);
+}
+
+void visit_constraints(Archive& archive, WorldRecord& world)
+{
+  auto& solver = *world.world->getConstraintSolver();
+  const auto count = archive.count(world.constraints.size());
+  if (archive.is_in()) {
+    solver.removeAllConstraints();
+    world.constraints.assign(count, ConstraintRecord{});
+  }
+  for (auto& record : world.constraints) {
+    record.body1 = visit_reference(archive, world, record.body1);
+    record.body2 = visit_reference(archive, world, record.body2);
+    if (archive.is_in()) {
+      record.skeleton1 = record.body1->getSkeleton();
+      record.skeleton2 = record.body2->getSkeleton();
+      record.positions1.setZero(static_cast<long>(record.skeleton1->getNumDofs()));
+      record.positions2.setZero(static_cast<long>(record.skeleton2->getNumDofs()));
+      record.point.setZero();
+    }
+    archive.vector([&] { return record.point; }, [&](const auto& point) { record.point = point; });
+    archive.vector([&] { return record.positions1; }, [&](const auto& q) { record.positions1 = q; });
+    archive.vector([&] { return record.positions2; }, [&](const auto& q) { record.positions2 = q; });
+    if (archive.is_in())
+      renew(record, solver);
+  }
+}
+
+} // namespace
+
+void visit_model(Archive& archive, WorldRecord& record)
+{
+  auto& world = *record.world;
+  archive.same(std::to_string(record.skeletons.size()) + " skeletons");
+  archive.number([&] { return world.getTimeStep(); }, [&](double step) { world.setTimeStep(step); });
+  archive.vector([&] { return world.getGravity(); }, [&](const auto& g) { world.setGravity(Eigen::Vector3d(g)); });
+  for (const auto& item : record.skeletons)
+    visit_skeleton(archive, *item->skeleton);
+  visit_detector(archive, *world.getConstraintSolver());
+  auto& solver = fast_solver(world);
+  archive.text(
+      [&] { return std::string(name_of(solver.solver())); },
+      [&](const auto& name) { solver.set_solver(solver_named(name)); });
+  archive.number(
+      [&] { return double(solver.contact_reduction()); }, [&](double on) { solver.set_contact_reduction(on != 0.0); });
+  archive.number([&] { return double(solver.warm_start()); }, [&](double on) { solver.set_warm_start(on != 0.0); });
+  visit_ignored_pairs(archive, record);
+  visit_constraints(archive, record);
+}
+
+} // namespace pydart2

@@ -1,0 +1,133 @@
+#include "state/model_shapes.hpp"
+
+#include <dart/dynamics/BoxShape.hpp>
+#include <dart/dynamics/CapsuleShape.hpp>
+#include <dart/dynamics/ConeShape.hpp>
+#include <dart/dynamics/CylinderShape.hpp>
+#include <dart/dynamics/EllipsoidShape.hpp>
+#include <dart/dynamics/MultiSphereConvexHullShape.hpp>
+#include <dart/dynamics/PlaneShape.hpp>
+#include <dart/dynamics/PyramidShape.hpp>
+#include <dart/dynamics/SphereShape.hpp>
+
+#include "state/model_joints.hpp"
+
+namespace pydart2 {
+
+using namespace dart::dynamics;
+
+namespace {
+
+using Vector = const Eigen::VectorXd&;
+
+template <class Round>
+void visit_radius(Archive& archive, Round& shape)
+{
+  archive.number([&] { return shape.getRadius(); }, [&](double radius) { shape.setRadius(radius); });
+}
+
+template <class Tall>
+void visit_height(Archive& archive, Tall& shape)
+{
+  archive.number([&] { return shape.getHeight(); }, [&](double height) { shape.setHeight(height); });
+}
+
+template <class Long>
+void visit_long(Archive& archive, Long& shape)
+{
+  visit_radius(archive, shape);
+  visit_height(archive, shape);
+}
+
+void visit_pyramid(Archive& archive, PyramidShape& shape)
+{
+  visit_height(archive, shape);
+  archive.number([&] { return shape.getBaseWidth(); }, [&](double width) { shape.setBaseWidth(width); });
+  archive.number([&] { return shape.getBaseDepth(); }, [&](double depth) { shape.setBaseDepth(depth); });
+}
+
+void visit_plane(Archive& archive, PlaneShape& shape)
+{
+  archive.vector(
+      [&] { return shape.getNormal(); }, [&](Vector normal) { shape.setNormal(before_normalizing(normal)); });
+  archive.number([&] { return shape.getOffset(); }, [&](double offset) { shape.setOffset(offset); });
+}
+
+void visit_spheres(Archive& archive, MultiSphereConvexHullShape& shape)
+{
+  auto spheres = shape.getSpheres();
+  bool changed = false;
+  const auto count = archive.count(spheres.size());
+  if (count != spheres.size()) {
+    spheres.resize(count, {0.0, Eigen::Vector3d::Zero()});
+    changed = true;
+  }
+  for (auto& [radius, position] : spheres) {
+    archive.number([&, &r = radius] { return r; }, [&, &r = radius](double value) { r = value, changed = true; });
+    archive.vector([&, &p = position] { return p; }, [&, &p = position](Vector value) { p = value, changed = true; });
+  }
+  if (!changed)
+    return;
+  shape.removeAllSpheres();
+  shape.addSpheres(spheres);
+}
+
+void visit_geometry(Archive& archive, Shape& any)
+{
+  archive.same(any.getType());
+  if (auto* box = dynamic_cast<BoxShape*>(&any))
+    archive.vector([&] { return box->getSize(); }, [&](Vector size) { box->setSize(Eigen::Vector3d(size)); });
+  if (auto* ellipsoid = dynamic_cast<EllipsoidShape*>(&any))
+    archive.vector(
+        [&] { return ellipsoid->getDiameters(); }, [&](Vector d) { ellipsoid->setDiameters(Eigen::Vector3d(d)); });
+  if (auto* sphere = dynamic_cast<SphereShape*>(&any))
+    visit_radius(archive, *sphere);
+  if (auto* cylinder = dynamic_cast<CylinderShape*>(&any))
+    visit_long(archive, *cylinder);
+  if (auto* capsule = dynamic_cast<CapsuleShape*>(&any))
+    visit_long(archive, *capsule);
+  if (auto* cone = dynamic_cast<ConeShape*>(&any))
+    visit_long(archive, *cone);
+  if (auto* pyramid = dynamic_cast<PyramidShape*>(&any))
+    visit_pyramid(archive, *pyramid);
+  if (auto* plane = dynamic_cast<PlaneShape*>(&any))
+    visit_plane(archive, *plane);
+  if (auto* hull = dynamic_cast<MultiSphereConvexHullShape*>(&any))
+    visit_spheres(archive, *hull);
+}
+
+void visit_contact(Archive& archive, DynamicsAspect& aspect)
+{
+  archive.number(
+      [&] { return aspect.getPrimaryFrictionCoeff(); }, [&](double value) { aspect.setPrimaryFrictionCoeff(value); });
+  archive.number(
+      [&] { return aspect.getSecondaryFrictionCoeff(); }, [&](double value) { aspect.setSecondaryFrictionCoeff(value); });
+  archive.number([&] { return aspect.getRestitutionCoeff(); }, [&](double value) { aspect.setRestitutionCoeff(value); });
+}
+
+} // namespace
+
+void visit_shape(Archive& archive, ShapeNode& node)
+{
+  archive.same(node.getName());
+  archive.vector(
+      [&]() -> Eigen::VectorXd {
+        const Eigen::Matrix4d transform = node.getRelativeTransform().matrix();
+        return Eigen::Map<const Eigen::VectorXd>(transform.data(), 16);
+      },
+      [&](Vector numbers) {
+        Eigen::Isometry3d transform;
+        transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(numbers.data());
+        node.setRelativeTransform(transform);
+      });
+  if (auto* look = node.getVisualAspect()) {
+    archive.vector([&] { return look->getRGBA(); }, [&](Vector rgba) { look->setRGBA(Eigen::Vector4d(rgba)); });
+    archive.number([&] { return double(look->isHidden()); }, [&](double on) { look->setHidden(on != 0.0); });
+  }
+  if (auto* contact = node.getDynamicsAspect())
+    visit_contact(archive, *contact);
+  if (const auto shape = node.getShape())
+    visit_geometry(archive, *shape);
+}
+
+} // namespace pydart2

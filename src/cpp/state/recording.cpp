@@ -1,0 +1,78 @@
+#include "state/recording.hpp"
+
+#include <algorithm>
+
+#include "state/contact.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+constexpr std::size_t piece_size = 8192; // numbers
+
+} // namespace
+
+std::size_t Frame::size() const
+{
+  return num_states + num_contacts * contact_columns;
+}
+
+void Recording::set_enabled(bool enabled)
+{
+  enabled_ = enabled;
+  if (!enabled)
+    clear();
+}
+
+void Recording::clear()
+{
+  pieces_.clear();
+  pieces_.shrink_to_fit();
+  frames_.clear();
+  frames_.shrink_to_fit();
+  first_ = 0;
+  bytes_ = 0;
+}
+
+const Frame& Recording::add(std::size_t num_states, std::size_t num_contacts, int layout)
+{
+  Frame frame{nullptr, num_states, num_contacts, layout};
+  if (pieces_.empty() || pieces_.back().capacity < pieces_.back().size + frame.size()) {
+    const std::size_t capacity = std::max(piece_size, frame.size());
+    pieces_.push_back({std::unique_ptr<double[]>(new double[capacity]), capacity}); // not make_unique, which clears them
+  }
+  auto& piece = pieces_.back();
+  frame.state = piece.numbers.get() + piece.size;
+  piece.size += frame.size();
+  ++piece.num_frames;
+  bytes_ += frame.bytes();
+  frames_.push_back(frame);
+  drop_oldest();
+  return frames_.back();
+}
+
+const Frame* Recording::find(long index) const
+{
+  if (index < first_ || index >= num_frames())
+    return nullptr;
+  return &frames_[static_cast<std::size_t>(index - first_)];
+}
+
+void Recording::set_limit(std::size_t bytes)
+{
+  limit_ = bytes;
+  drop_oldest();
+}
+
+void Recording::drop_oldest()
+{
+  while (bytes_ > limit_ && frames_.size() > 1) { // the newest frame always stays
+    bytes_ -= frames_.front().bytes();
+    frames_.pop_front();
+    ++first_;
+    if (--pieces_.front().num_frames == 0)
+      pieces_.pop_front();
+  }
+}
+
+} // namespace pydart2

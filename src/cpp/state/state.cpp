@@ -1,0 +1,122 @@
+#include "state/state.hpp"
+
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/dynamics/DegreeOfFreedom.hpp>
+#include <dart/dynamics/PointMass.hpp>
+#include <dart/dynamics/SoftBodyNode.hpp>
+
+#include "base/archive.hpp"
+#include "base/checks.hpp"
+#include "collision/detector.hpp"
+#include "contact/fast_solver.hpp"
+#include "state/constraint_record.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+using dart::dynamics::BodyNode;
+using dart::dynamics::PointMass;
+using dart::dynamics::Skeleton;
+using Vector = const Eigen::VectorXd&;
+
+void visit_dofs(Archive& archive, Skeleton& skeleton)
+{
+  // Positions and velocities are set twice: the engine takes 0 for equal to -0 and would keep what it has.
+  archive.vector(
+      [&] { return skeleton.getPositions(); },
+      [&](Vector q) {
+        skeleton.setPositions(q.array() + 1.0);
+        skeleton.setPositions(q);
+      });
+  archive.vector(
+      [&] { return skeleton.getVelocities(); },
+      [&](Vector dq) {
+        skeleton.setVelocities(dq.array() + 1.0);
+        skeleton.setVelocities(dq);
+      });
+  archive.vector([&] { return skeleton.getAccelerations(); }, [&](Vector ddq) { skeleton.setAccelerations(ddq); });
+  for (auto* dof : skeleton.getDofs()) {
+    // A force is also the command of a dof whose actuator takes forces, so it comes first.
+    archive.number([&] { return dof->getForce(); }, [&](double force) { dof->setForce(force); });
+    archive.number([&] { return dof->getCommand(); }, [&](double command) { dof->setCommand(command); });
+    archive.number(
+        [&] { return dof->getConstraintImpulse(); }, [&](double impulse) { dof->setConstraintImpulse(impulse); });
+  }
+}
+
+void visit_body(Archive& archive, BodyNode& body)
+{
+  archive.vector(
+      [&] { return body.getExternalForceLocal(); },
+      [&](Vector force) { body.setAspectState(BodyNode::AspectState(Eigen::Vector6d(force))); });
+  archive.vector([&] { return body.getConstraintImpulse(); }, [&](Vector impulse) { body.setConstraintImpulse(impulse); });
+}
+
+void visit_point(Archive& archive, PointMass& point)
+{
+  archive.vector([&] { return point.getPositions(); }, [&](Vector value) { point.setPositions(value); });
+  archive.vector([&] { return point.getVelocities(); }, [&](Vector value) { point.setVelocities(value); });
+  archive.vector([&] { return point.getAccelerations(); }, [&](Vector value) { point.setAccelerations(value); });
+  archive.vector([&] { return point.getForces(); }, [&](Vector value) { point.setForces(value); });
+  archive.vector(
+      [&] { return point.getConstraintImpulses(); },
+      [&](Vector value) { point.setConstraintImpulse(Eigen::Vector3d(value), true); });
+}
+
+void visit(Archive& archive, WorldRecord& record)
+{
+  auto& world = *record.world;
+  archive.number([&] { return world.getTime(); }, [&](double time) { world.setTime(time); });
+  archive.number(
+      [&] { return static_cast<double>(record.frame); }, [&](double frame) { record.frame = static_cast<long>(frame); });
+  for (const auto& item : record.skeletons) {
+    auto& skeleton = *item->skeleton;
+    visit_dofs(archive, skeleton);
+    for (auto* body : skeleton.getBodyNodes())
+      visit_body(archive, *body);
+    for (std::size_t i = 0; i < skeleton.getNumSoftBodyNodes(); ++i)
+      for (auto* point : skeleton.getSoftBodyNode(i)->getPointMasses())
+        visit_point(archive, *point);
+  }
+}
+
+} // namespace
+
+std::vector<double> state_of(WorldRecord& record)
+{
+  Archive archive;
+  visit(archive, record);
+  const auto memory = fast_solver(*record.world).warm_lcp().memory();
+  archive.numbers.insert(archive.numbers.end(), memory.begin(), memory.end());
+  return archive.numbers;
+}
+
+void restore_state(WorldRecord& record, const std::vector<double>& state)
+{
+  auto& solver = fast_solver(*record.world);
+  Archive now;
+  visit(now, record);
+  const auto size = now.numbers.size();
+  if (state.size() < size || (state.size() > size && !solver.warm_start()))
+    check::size(static_cast<long>(state.size()), size, "the snapshot");
+  if (!Eigen::Map<const Eigen::VectorXd>(state.data(), static_cast<long>(state.size())).allFinite())
+    throw Error(Kind::value, "the snapshot must be finite");
+  const auto end = state.begin() + static_cast<std::ptrdiff_t>(size);
+  if (!solver.warm_lcp().remember({end, state.end()}))
+    throw Error(Kind::value, "the snapshot does not end with what a solver with a warm start remembers");
+  Archive archive({}, {state.begin(), end});
+  visit(archive, record);
+  forget_history(record);
+}
+
+void forget_history(WorldRecord& record)
+{
+  auto& solver = *record.world->getConstraintSolver();
+  solver.clearLastCollisionResult(); // it points to objects of the old detector
+  renew_detector(solver);
+  for (auto& constraint : record.constraints)
+    renew(constraint, solver);
+}
+
+} // namespace pydart2

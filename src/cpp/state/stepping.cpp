@@ -1,0 +1,268 @@
+#include "state/stepping.hpp"
+
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/dynamics/DegreeOfFreedom.hpp>
+#include <dart/dynamics/PointMass.hpp>
+#include <dart/dynamics/SoftBodyNode.hpp>
+#include <cstring>
+#include <sstream>
+
+#include "base/checks.hpp"
+#include "base/errors.hpp"
+#include "collision/detector.hpp"
+#include "state/dof_state.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+using dart::dynamics::PointMass;
+using dart::dynamics::Skeleton;
+
+constexpr const char* remedy = "take smaller time steps, gains or forces, and go on from world.reset() or a snapshot";
+
+/// Also false for NaN.
+bool sane(double value)
+{
+  return std::abs(value) <= check::huge;
+}
+
+bool sane(const Eigen::Vector3d& value)
+{
+  return sane(value[0]) && sane(value[1]) && sane(value[2]);
+}
+
+std::string text(double value)
+{
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+} // namespace
+
+/// A skeleton's state, read where the engine keeps it, and a copy to go back to.
+class StateWatch
+{
+public:
+  StateWatch(SkeletonRecord& record) : skeleton_(*record.skeleton), structure_(record.structure), dofs_(record.dofs())
+  {
+    for (std::size_t i = 0; i < skeleton_.getNumSoftBodyNodes(); ++i)
+      for (auto* point : skeleton_.getSoftBodyNode(i)->getPointMasses())
+        points_.push_back(point);
+    saved_.resize(3 * dofs_.size() + 9 * points_.size());
+  }
+
+  int structure() const { return structure_; }
+
+  void save()
+  {
+    double* out = saved_.data();
+    for (const auto* places : {&dofs_.positions, &dofs_.velocities, &dofs_.accelerations})
+      for (const double* place : *places)
+        *out++ = *place;
+    for (const auto* point : points_)
+      for (const auto* value : {&point->getPositions(), &point->getVelocities(), &point->getAccelerations()})
+        out = std::copy(value->data(), value->data() + 3, out);
+  }
+
+  void restore()
+  {
+    const auto n = static_cast<long>(dofs_.size());
+    const Eigen::Map<const Eigen::VectorXd> saved(saved_.data(), static_cast<long>(saved_.size()));
+    // Equal numbers are a no-op in the engine and would leave caches that hold NaN.
+    skeleton_.setPositions(saved.head(n).array() + 1.0);
+    skeleton_.setPositions(saved.head(n));
+    skeleton_.setVelocities(saved.segment(n, n));
+    skeleton_.setAccelerations(saved.segment(2 * n, n));
+    long at = 3 * n;
+    for (auto* point : points_) {
+      point->setPositions(saved.segment<3>(at));
+      point->setVelocities(saved.segment<3>(at + 3));
+      point->setAccelerations(saved.segment<3>(at + 6));
+      at += 9;
+    }
+    skeleton_.clearConstraintImpulses();
+    skeleton_.setImpulseApplied(false);
+    for (auto* point : points_)
+      point->clearConstraintImpulse();
+  }
+
+  void check_positions(double time) const
+  {
+    check(dofs_.positions, "position", time);
+    check_points(&PointMass::getPositions, "position", time);
+  }
+
+  void check_velocities(double time) const
+  {
+    check(dofs_.velocities, "velocity", time);
+    check_points(&PointMass::getVelocities, "velocity", time);
+  }
+
+private:
+  void check(const std::vector<const double*>& places, const char* what, double time) const
+  {
+    bool all = true;
+    for (const double* place : places)
+      all &= sane(*place);
+    if (all)
+      return;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (!sane(*places[i]))
+        blown_up("dof '" + skeleton_.getDof(i)->getName() + "'", what, *places[i], time);
+  }
+
+  void check_points(const Eigen::Vector3d& (PointMass::*read)() const, const char* what, double time) const
+  {
+    for (const auto* point : points_)
+      if (const auto& value = (point->*read)(); !sane(value))
+        blown_up(
+            "a point of soft body '" + point->getParentSoftBodyNode()->getName() + "'", what, value.cwiseAbs().maxCoeff(),
+            time);
+  }
+
+  [[noreturn]] void blown_up(const std::string& where, const char* what, double value, double time) const
+  {
+    throw Error(
+        Kind::simulation,
+        "the simulation blew up at t = " + text(time) + " s: " + what + " of " + where + " in skeleton '"
+            + skeleton_.getName() + "' became " + text(value) + "; " + remedy);
+  }
+
+  Skeleton& skeleton_;
+  int structure_;
+  const DofState& dofs_;
+  std::vector<PointMass*> points_;
+  std::vector<double> saved_;
+};
+
+namespace {
+
+StateWatch& watch(SkeletonRecord& record)
+{
+  if (!record.watch || record.watch->structure() != record.structure)
+    record.watch = std::make_shared<StateWatch>(record);
+  return *record.watch;
+}
+
+/// Collision detection needs differences of coordinates: contacts of bodies that are too far out have normals that are
+/// not numbers. ODE ends the process where a coordinate in cells of its hash space, 1/8 m and larger, is no 32-bit integer.
+void check_range(const WorldRecord& record, bool ode, double time)
+{
+  const double limit = ode ? 1e8 : 1e12;
+  for (const auto& item : record.skeletons)
+    for (const auto* body : item->skeleton->getBodyNodes())
+      if (const double far = body->getWorldTransform().translation().cwiseAbs().maxCoeff(); far > limit)
+        throw Error(
+            Kind::simulation,
+            "the simulation left the range of the collision detector at t = " + text(time) + " s: body '"
+                + body->getName() + "' of skeleton '" + item->skeleton->getName() + "' is " + text(far)
+                + " m from the origin along an axis, the range is " + text(limit) + " m");
+}
+
+} // namespace
+
+void solve_constraints(WorldRecord& record, double time)
+{
+  auto& solver = *record.world->getConstraintSolver();
+  const bool ode = solver.getCollisionDetector()->getType() == "ode";
+  check_range(record, ode, time);
+  const auto lock = ode ? lock_ode() : std::unique_lock<std::recursive_mutex>();
+  solver.solve();
+}
+
+namespace {
+
+/// The place to look at where the engine does not say which it is.
+std::string fastest_dof(const WorldRecord& record)
+{
+  const dart::dynamics::DegreeOfFreedom* fastest = nullptr;
+  for (const auto& item : record.skeletons)
+    for (const auto* dof : item->skeleton->getDofs())
+      if (fastest == nullptr || !(std::abs(dof->getVelocity()) <= std::abs(fastest->getVelocity())))
+        fastest = dof;
+  if (fastest == nullptr)
+    return "no skeleton has a dof";
+  return "the fastest dof is '" + fastest->getName() + "' of skeleton '" + fastest->getSkeleton()->getName() + "', at "
+         + text(fastest->getVelocity());
+}
+
+/// World::step() up to the time, in the same order. Checks come before what would fail an assertion of the engine.
+void phases(WorldRecord& record)
+{
+  auto& world = *record.world;
+  const double dt = world.getTimeStep(), end = world.getTime() + dt;
+  for (const auto& item : record.skeletons) {
+    auto& skeleton = *item->skeleton;
+    if (!skeleton.isMobile())
+      continue;
+    skeleton.computeForwardDynamics();
+    skeleton.integrateVelocities(dt);
+    item->watch->check_velocities(end);
+  }
+  solve_constraints(record, end);
+  for (const auto& item : record.skeletons) {
+    auto& skeleton = *item->skeleton;
+    if (!skeleton.isMobile())
+      continue;
+    if (skeleton.isImpulseApplied()) {
+      skeleton.computeImpulseForwardDynamics();
+      skeleton.setImpulseApplied(false);
+      item->watch->check_velocities(end);
+    }
+    skeleton.integratePositions(dt);
+    item->watch->check_positions(end);
+  }
+}
+
+/// As Skeleton::clearExternalForces(), which locks a pointer and marks its caches for every body, only for those that
+/// have a force.
+void clear_external_forces(Skeleton& skeleton)
+{
+  static const Eigen::Vector6d none = Eigen::Vector6d::Zero();
+  if (skeleton.getNumSoftBodyNodes() > 0)
+    return skeleton.clearExternalForces();
+  for (auto* body : skeleton.getBodyNodes())
+    if (const auto& force = body->getExternalForceLocal(); std::memcmp(force.data(), none.data(), sizeof none) != 0)
+      body->clearExternalForces();
+}
+
+void go_back(WorldRecord& record)
+{
+  for (const auto& item : record.skeletons)
+    item->watch->restore();
+  record.world->getConstraintSolver()->clearLastCollisionResult(); // its forces may not be finite
+}
+
+} // namespace
+
+void advance(WorldRecord& record)
+{
+  auto& world = *record.world;
+  for (const auto& item : record.skeletons)
+    watch(*item).save();
+  try {
+    phases(record);
+  } catch (const Error& error) {
+    const std::string where = error.kind() == Kind::engine ? fastest_dof(record) : "";
+    go_back(record);
+    if (error.kind() != Kind::engine)
+      throw;
+    throw Error(
+        Kind::simulation,
+        "the simulation blew up at t = " + text(world.getTime() + world.getTimeStep()) + " s: " + error.what() + "; " + where
+            + "; " + remedy);
+  }
+  for (const auto& item : record.skeletons)
+    if (item->skeleton->isMobile()) {
+      item->skeleton->clearInternalForces();
+      clear_external_forces(*item->skeleton);
+      if (!item->dofs().commands_at_rest())
+        item->skeleton->resetCommands();
+    }
+  world.setTime(world.getTime() + world.getTimeStep());
+  ++record.frame;
+}
+
+} // namespace pydart2

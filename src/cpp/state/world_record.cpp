@@ -1,0 +1,86 @@
+#include "state/world_record.hpp"
+
+#include <dart/collision/CollisionFilter.hpp>
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <numeric>
+
+#include "base/errors.hpp"
+#include "collision/detector.hpp"
+#include "contact/fast_solver.hpp"
+
+namespace pydart2 {
+
+const DofState& SkeletonRecord::dofs()
+{
+  if (!found_dofs || found_structure != structure) {
+    found_dofs.emplace(*skeleton);
+    found_structure = structure;
+  }
+  return *found_dofs;
+}
+
+WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string source)
+  : id(id), world(std::move(world)), source(std::move(source))
+{
+  replace_detector(*this->world->getConstraintSolver());
+  install_solver(*this->world, default_solver());
+  for (std::size_t i = 0; i < this->world->getNumSkeletons(); ++i)
+    skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i), {}, static_cast<int>(i)}));
+}
+
+void WorldRecord::clear()
+{
+  const auto lock = lock_ode();
+  recording.set_enabled(false);
+  constraints.clear();
+  ignored_pairs.clear();
+  skeletons.clear();
+  world.reset();
+}
+
+void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::string& source)
+{
+  const auto lock = lock_ode();
+  world->addSkeleton(skeleton);
+  skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton, source}));
+}
+
+int WorldRecord::layout() const
+{
+  return std::accumulate(skeletons.begin(), skeletons.end(), removals, [](int sum, const SkeletonRef& skeleton) {
+    return sum + skeleton->structure;
+  });
+}
+
+int WorldRecord::index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const
+{
+  for (std::size_t i = 0; i < skeletons.size(); ++i)
+    if (skeletons[i]->skeleton == skeleton)
+      return static_cast<int>(i);
+  return -1;
+}
+
+void WorldRecord::refuse(State seen) const
+{
+  const std::string name = "world " + std::to_string(id);
+  if (seen == State::busy)
+    throw Error(Kind::engine, name + " is in use by another thread; give each thread a world of its own");
+  throw Error(Kind::destroyed, name + " was destroyed by destroy() or by a later init(); make a new World");
+}
+
+void apply_ignored_pairs(WorldRecord& world)
+{
+  auto filter = std::make_shared<dart::collision::BodyNodeCollisionFilter>();
+  for (const auto& [body1, body2] : world.ignored_pairs)
+    filter->addBodyNodePairToBlackList(body1, body2);
+  world.world->getConstraintSolver()->getCollisionOption().collisionFilter = filter;
+}
+
+Busy::Busy(WorldRecord& world) : world_(world)
+{
+  auto expected = WorldRecord::State::ready;
+  if (!world.state.compare_exchange_strong(expected, WorldRecord::State::busy))
+    world.refuse(expected); // not world.check(): the other thread may be done by now
+}
+
+} // namespace pydart2
