@@ -6,6 +6,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -15,12 +16,14 @@ from numpy.typing import ArrayLike, NDArray
 from pydart2.gui import context as contexts
 from pydart2.gui import scene as scenes
 from pydart2.gui.camera import Camera, as_camera
+from pydart2.gui.first_look import floor_of, look
 from pydart2.gui.trackball import Trackball
 
 if TYPE_CHECKING:
+    from pydart2.gui.scene import Item
     from pydart2.gui.targets import BodiesTarget, ColorTarget
 
-CameraLike = int | Trackball | Camera | tuple[ArrayLike, float]
+CameraLike = int | str | Trackball | Camera | tuple[ArrayLike, float] | None
 Mode = Literal["rgb", "depth", "segmentation"]
 
 _MODES = ("rgb", "depth", "segmentation")
@@ -71,19 +74,19 @@ class OffscreenRenderer:
         world: Any,
         width: int | None = None,
         height: int | None = None,
-        camera: CameraLike = 0,
+        camera: CameraLike = None,
         mode: Literal["rgb"] = "rgb",
     ) -> NDArray[np.uint8]: ...
     @overload
     def render(
-        self, world: Any, width: int | None = None, height: int | None = None, camera: CameraLike = 0, *, mode: Mode
+        self, world: Any, width: int | None = None, height: int | None = None, camera: CameraLike = None, *, mode: Mode
     ) -> NDArray[Any]: ...
     def render(
         self,
         world: Any,
         width: int | None = None,
         height: int | None = None,
-        camera: CameraLike = 0,
+        camera: CameraLike = None,
         mode: Mode = "rgb",
     ) -> NDArray[Any]:
         """A picture of a world, or of anything that has `render()`, `render_with_ri(ri)` or `draw_with_ri(ri)`.
@@ -95,8 +98,10 @@ class OffscreenRenderer:
         width, height
             Pixels, if they are not to be those of the renderer.
         camera
-            0 (Y up), 1 (Z up), a Trackball, a Camera, or (pose, fov): the eye's pose in the world, shape (4, 4), which
-            looks along its -z with y upwards, and the vertical field of view in rad.
+            None: one that sees all that is there, with the world's up upwards; a floor is drawn where the world has
+            none. The same by name, from "front", "back", "left", "right" or "top". Or, without such a floor, 0 (Y up)
+            and 1 (Z up) as in windows, a Trackball, a Camera, or (pose, fov): the eye's pose in the world, shape
+            (4, 4), which looks along its -z with y upwards, and the vertical field of view in rad.
         mode
             "rgb": (height, width, 3) uint8. "depth": (height, width) float32, m along the optical axis, inf for the
             background. "segmentation": (height, width, 2) int32, skeleton and body id, -1 for none. Row 0 is on top.
@@ -104,20 +109,35 @@ class OffscreenRenderer:
         Raises
         ------
         ValueError
-            For an unknown mode or camera, or a size that is not positive.
+            For an unknown mode or camera (NameNotFound for a name), or a size that is not positive.
         """
         size = self.width if width is None else width, self.height if height is None else height
         _check_size(*size)
         if mode not in _MODES:
             raise ValueError(f"no mode {mode!r}; there are {', '.join(_MODES)}")
-        eye = as_camera(camera)
+        if camera is None or isinstance(camera, str):
+            eye, floor = look(world, size[0] / size[1], camera or "auto"), floor_of(world)
+        else:
+            eye, floor = as_camera(camera), None
         with self._current():
-            return self._render_rgb(world, size, eye) if mode == "rgb" else self._render_bodies(world, size, eye, mode)
+            if mode != "rgb":
+                return self._render_bodies(world, size, eye, mode)
+            with self._with_floor(floor):
+                return self._render_rgb(world, size, eye)
 
     def close(self) -> None:
         """Free the context; the renderer can no longer be used."""
         with self._lock:
             self._free()
+
+    @contextmanager
+    def _with_floor(self, floor: Item | None) -> Iterator[None]:
+        show = self.scene.show
+        self.scene.show = replace(show, floor=floor or show.floor)
+        try:
+            yield
+        finally:
+            self.scene.show = show
 
     def _render_rgb(self, world: Any, size: tuple[int, int], camera: Camera) -> NDArray[np.uint8]:
         from pydart2.gui.targets import ColorTarget
@@ -159,7 +179,9 @@ class OffscreenRenderer:
             yield
 
 
-def render(world: Any, width: int = 640, height: int = 480, camera: CameraLike = 0, mode: Mode = "rgb") -> NDArray[Any]:
+def render(
+    world: Any, width: int = 640, height: int = 480, camera: CameraLike = None, mode: Mode = "rgb"
+) -> NDArray[Any]:
     """A picture of a world without a display; the arguments are those of `OffscreenRenderer.render`.
 
     >>> picture = pydart2.gui.render(world, 640, 480, camera=1)

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from pydart2.errors import SimulationError
-from pydart2.gui.camera import Camera
 from pydart2.gui.capture import write_movie
+from pydart2.gui.first_look import floor_of, look
 from pydart2.gui.runtime import Runtime
-from pydart2.gui.trackball import Trackball
+
+if TYPE_CHECKING:
+    from pydart2.gui.offscreen import CameraLike
 
 
 def record(
@@ -23,7 +25,7 @@ def record(
     rate: float = 30.0,
     width: int = 640,
     height: int = 480,
-    camera: int | Trackball | Camera | tuple[ArrayLike, float] = 0,
+    camera: CameraLike = None,
     speed: float = 1.0,
 ) -> None:
     """Simulate, and write a movie of it; `on_step_event` is called before each step, as in a window.
@@ -41,7 +43,7 @@ def record(
     width, height
         Pixels.
     camera
-        As for `World.render`: an index, a Trackball, a Camera, or (pose (4, 4), field of view in rad).
+        As of `render`. None or a name: where that camera is at the start, it stays.
     speed
         Simulated seconds per second of the movie.
 
@@ -54,6 +56,9 @@ def record(
 
     runtime = Runtime(sim)
     renderer = OffscreenRenderer(width, height)
+    if camera is None or isinstance(camera, str):
+        renderer.scene.show.floor = floor_of(sim)
+        camera = look(sim, width / height, camera or "auto")
     try:
         pictures = _pictures(runtime, seconds, speed / rate, lambda: renderer.render(sim, camera=camera))
         write_movie(path, pictures, rate)

@@ -44,6 +44,8 @@ class Show:
     forces : bool
         External forces that were added "with arrow".
     centers_of_mass, frames, joint_axes : bool
+    floor : Item or None
+        Drawn besides, as what `first_look.floor_of` makes.
     """
 
     bodies: bool = True
@@ -54,6 +56,7 @@ class Show:
     centers_of_mass: bool = False
     frames: bool = False
     joint_axes: bool = False
+    floor: Item | None = None
 
 
 class Item(NamedTuple):
@@ -140,6 +143,8 @@ class Scene:
             if show.markers:
                 self.add_markers(skel)
             self._add_signs(skel, show)
+        if show.floor is not None:
+            self.items.append(show.floor)
         if show.contacts:
             self.add_contacts(world.collision_result.rows)
 
@@ -217,9 +222,14 @@ class Scene:
             origin = transform[:3, 3]
             self.add_arrow(origin, origin + length * transform[:3, axis], 0.04 * length, rgba)
 
-    def add_ground(self, height: float = 0.0, size: float = 20.0, rgba: ArrayLike = _FLOOR) -> None:
-        """Add a square floor with a grid at a height over the origin, m; its colour has shape (4,)."""
-        pose = between(height * self.up, (height + 1.0) * self.up, 0.0)
+    def add_ground(
+        self, height: float = 0.0, size: float = 20.0, rgba: ArrayLike = _FLOOR, centre: ArrayLike = (0.0, 0.0, 0.0)
+    ) -> None:
+        """Add a square floor with a grid at a height over the origin, m; its colour has shape (4,), and its middle is
+        over or under `centre` (3,)."""
+        middle = np.asarray(centre, dtype=float)
+        middle = middle + (height - middle @ self.up) * self.up
+        pose = between(middle, middle + self.up, 0.0)
         self.add(geometry.quad(), pose, size, rgba, casts=False, specular=0.0, grid=grid_of(size))
 
 

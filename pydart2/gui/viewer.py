@@ -42,7 +42,8 @@ def launch_pyqt5(sim: Any, title: str | None = None, default_camera: int | None 
     title
         Of the window.
     default_camera
-        0: Y up, 1: Z up; None chooses by the world's gravity.
+        0: Y up, 1: Z up; None chooses by the world's gravity, sees all that is there, and draws a floor where the
+        world has none.
 
     Returns
     -------
@@ -53,9 +54,14 @@ def launch_pyqt5(sim: Any, title: str | None = None, default_camera: int | None 
     NoDisplayError
         If there is no display.
     """
+    from pydart2.gui.first_look import floor_of
     from pydart2.gui.pyqt5.window import PyQt5Window
 
-    window: PyQt5Window = launch_window(sim, PyQt5Window(sim, title), default_camera)
+    window = PyQt5Window(sim, title)
+    if default_camera is None:
+        window.glwidget.overlays.floor = floor_of(sim)
+        window.commands.frame_all()
+    launch_window(sim, window, default_camera)
     return window
 
 

@@ -52,7 +52,7 @@ def _cubes(renderer: OffscreenRenderer, folder: Path) -> Picture:
 
 
 def _primitives(renderer: OffscreenRenderer, folder: Path) -> Picture:
-    return renderer.render(primitives(), *SIZE)
+    return renderer.render(primitives(), *SIZE, camera=0)
 
 
 def _textured(renderer: OffscreenRenderer, folder: Path) -> Picture:
@@ -61,7 +61,7 @@ def _textured(renderer: OffscreenRenderer, folder: Path) -> Picture:
 
 def _soft(renderer: OffscreenRenderer, folder: Path) -> Picture:
     world = pydart2.World(0.001, pydart2.data_path("skel/softBodies.skel"))
-    return renderer.render(world, *SIZE)
+    return renderer.render(world, *SIZE, camera=0)
 
 
 def _robot(renderer: OffscreenRenderer, folder: Path) -> Picture:
@@ -72,7 +72,7 @@ def _robot(renderer: OffscreenRenderer, folder: Path) -> Picture:
 
 
 def _drawn(renderer: OffscreenRenderer, folder: Path) -> Picture:
-    return renderer.render(Drawn(0.001, pydart2.data_path("skel/cubes.skel")), *SIZE)
+    return renderer.render(Drawn(0.001, pydart2.data_path("skel/cubes.skel")), *SIZE, camera=0)
 
 
 PICTURES: dict[str, Callable[[OffscreenRenderer, Path], Picture]] = {

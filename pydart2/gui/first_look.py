@@ -1,0 +1,72 @@
+"""The first look at a world: a camera that finds it by itself, and a floor where it has none."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pydart2.errors import NameNotFound
+from pydart2.gui.camera import Camera
+from pydart2.gui.camera_control import FIELD_OF_VIEW
+from pydart2.gui.scene import NOBODY, Item, Scene, boxes, from_world
+
+#: Where the eye is, as parts of what is ahead of a model, on its left, and up.
+VIEWS = {
+    "auto": (1.0, -0.6, 0.4),
+    "front": (1.0, 0.0, 0.0),
+    "back": (-1.0, 0.0, 0.0),
+    "left": (0.0, 1.0, 0.0),
+    "right": (0.0, -1.0, 0.0),
+    "top": (-1e-3, 0.0, 1.0),
+}
+
+_LEAST_RADIUS = 0.02  # m
+
+
+_LEAST_FLOOR = 20.0  # m
+
+
+def look(world: Any, aspect: float = 1.0, view: str = "auto") -> Camera:
+    """A camera that sees all of a world but its floors, from one of VIEWS; `aspect` is width / height.
+
+    Ahead is where models look by custom, along x. NameNotFound for another view.
+    """
+    if view not in VIEWS:
+        raise NameNotFound("camera", view, "pydart2.gui", VIEWS)
+    scene = _scene_of(world)
+    low, high = _extent(scene)
+    middle, radius = (low + high) / 2.0, max(float(np.linalg.norm(high - low)) / 2.0, _LEAST_RADIUS)
+    distance = radius / np.sin(np.arctan(np.tan(FIELD_OF_VIEW / 2.0) * min(aspect, 1.0)))
+    ahead = np.array([1.0, 0.0, 0.0] if abs(scene.up[0]) < 0.9 else [0.0, 0.0, -1.0])
+    ahead -= (ahead @ scene.up) * scene.up
+    ahead /= np.linalg.norm(ahead)
+    direction = np.asarray(VIEWS[view]) @ np.array([ahead, np.cross(scene.up, ahead), scene.up])
+    camera = Camera.look_at(middle + distance * direction / np.linalg.norm(direction), middle, scene.up)
+    return replace(camera, near=min(0.01, 0.01 * distance), far=max(100.0, 4.0 * distance))
+
+
+def floor_of(world: Any) -> Item | None:
+    """A floor to be drawn under all that a world shows now; None where a body of it is a floor, or nothing is there."""
+    scene = _scene_of(world)
+    bodies = [item for item in scene.items if item.ids != NOBODY]
+    if not bodies or not all(item.casts for item in bodies):
+        return None
+    low, high = _extent(scene)
+    ground = Scene(scene.up)
+    lowest = float(np.where(scene.up > 0.0, low, high) @ scene.up)
+    ground.add_ground(lowest, max(_LEAST_FLOOR, 4.0 * float(np.linalg.norm(high - low))), centre=(low + high) / 2.0)
+    return ground.items[0]
+
+
+def _scene_of(world: Any) -> Scene:
+    return from_world(world) if hasattr(world, "skeletons") else Scene()
+
+
+def _extent(scene: Scene) -> NDArray[np.float64]:
+    """Lowest and highest corner (2, 3), m, of all that is no floor, else of all."""
+    corners = boxes([item for item in scene.items if item.casts] or scene.items)
+    corners = corners[np.isfinite(corners).all(axis=(1, 2))]
+    return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)]) if len(corners) else np.zeros((2, 3))
