@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import pydart2
-from pydart2.__main__ import example_names
+from pydart2.cli.examples import example_names
 from pydart2.resources import examples_folder
 from pydart2.utils.progress import progress
 

@@ -13,6 +13,7 @@ from pydart2.errors import SimulationError
 from pydart2.gui.capture import write_movie
 from pydart2.gui.first_look import floor_of, look
 from pydart2.gui.runtime import Runtime
+from pydart2.utils.progress import progress
 
 if TYPE_CHECKING:
     from pydart2.gui.offscreen import CameraLike
@@ -73,7 +74,7 @@ def _pictures(runtime: Runtime, seconds: float, spacing: float, draw: Any) -> It
     if start is None:
         raise ValueError(f"{type(runtime.sim).__name__} has no time `t`, in s, to be recorded by")
     yield draw()
-    for i in range(1, round(seconds / spacing) + 1):
+    for i in progress(range(1, round(seconds / spacing) + 1), "recording", "picture"):
         half_step = 0.5 * (runtime.time_step or 0.0)
         while (runtime.time or 0.0) + half_step < start + i * spacing:
             before = runtime.time

@@ -14,7 +14,8 @@ import pytest
 from PIL import Image
 
 import pydart2
-from pydart2.__main__ import example_names, main
+from pydart2.cli import main
+from pydart2.cli.examples import example_names
 from pydart2.resources import examples_folder
 
 ATLAS = "./data/sdf/atlas/atlas_v3_no_head.sdf"

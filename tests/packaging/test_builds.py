@@ -24,7 +24,7 @@ world = pydart2.World(0.001, "./data/skel/cubes.skel")
 world.step(100)
 assert abs(world.skeletons[-1].C[1] + 0.195) > 0.01, "the cube did not fall"
 assert world.skeletons[-1].q["joint 1_pos_y"] < 0
-from pydart2.__main__ import example_names
+from pydart2.cli.examples import example_names
 assert "biped_stand" in example_names()
 import _pydart2_api
 assert _pydart2_api.world__getTime(world.id) == world.t

@@ -1,0 +1,90 @@
+"""``pydart2 bench``: how fast a file's world steps, where the time goes, and what would be faster."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from typing import Any
+
+import pydart2
+from pydart2.cli.models import add_file, open_world
+from pydart2.cli.report import Report, table
+from pydart2.utils.progress import progress
+from pydart2.world import _DETECTORS
+
+_SECONDS = 0.5  # of each measurement
+_AT_ONCE = 20  # steps
+_SOLVERS = ("fast", "dart")
+
+
+def add(commands: Any) -> None:
+    """Add the command."""
+    parser = commands.add_parser("bench", help="steps a second, where the time goes, what would be faster")
+    add_file(parser)
+    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> Report:
+    """Measure the world as it is, and with each other detector and solver."""
+    world = open_world(args.file)
+    world.disable_recording()
+    own = world.collision_detector(), world.constraint_solver()
+    others = [(d, s) for d in range(len(_DETECTORS)) for s in _SOLVERS if (d, s) != own]
+    rows = [_measure(world.clone(), *choice) for choice in progress([own, *others], "measuring", "world")]
+    free = world.clone()
+    for skel in free.skeletons:
+        for body in skel.bodynodes:
+            body.set_collidable(False)
+    dynamics = _measure(free, *own)["us_per_step"]
+    data = {
+        "dofs": sum(skel.ndofs for skel in world.skeletons),
+        "dt": world.dt,
+        "dynamics_us": dynamics,
+        "contacts_us": max(rows[0]["us_per_step"] - dynamics, 0.0),
+        "choices": rows,
+    }
+    return Report(_text(data), data)
+
+
+def _measure(world: pydart2.World, detector: int, solver: str) -> dict[str, Any]:
+    """What a step takes and how many contacts it has, from the start of the world on."""
+    world.set_collision_detector(detector)
+    world.set_constraint_solver(solver)
+    row: dict[str, Any] = {"detector": _DETECTORS[detector], "solver": solver, "us_per_step": math.nan, "contacts": 0}
+    steps = contacts = 0
+    seconds = 0.0
+    try:
+        while seconds < _SECONDS:
+            start = time.perf_counter()
+            world.step(_AT_ONCE)
+            seconds += time.perf_counter() - start
+            steps += _AT_ONCE
+            contacts = max(contacts, world.collision_result.num_contacts())
+    except pydart2.SimulationError as error:
+        return {**row, "error": str(error)}
+    return {**row, "us_per_step": 1e6 * seconds / steps, "contacts": contacts}
+
+
+def _text(data: dict[str, Any]) -> str:
+    own, *others = data["choices"]
+    rows = [
+        (r["detector"], r["solver"], r["us_per_step"], r["us_per_step"] * 1e-6 / data["dt"], r["contacts"])
+        for r in data["choices"]
+    ]
+    lines = [
+        f"{data['dofs']} dofs, steps of {data['dt']:g} s: {1e6 / own['us_per_step']:,.0f} steps/s, "
+        f"{data['dt'] * 1e6 / own['us_per_step']:.2g} times real time",
+        f"dynamics {data['dynamics_us']:.3g} us a step, collision and contact forces {data['contacts_us']:.3g} us",
+        "",
+        table(rows, ("detector", "solver", "us a step", "of real time", "contacts")),
+    ]
+    fastest = min(others, key=lambda row: row["us_per_step"] if row["us_per_step"] > 0.0 else math.inf)
+    if fastest["us_per_step"] < 0.9 * own["us_per_step"]:
+        lines += [
+            "",
+            f"faster: the detector {fastest['detector']!r} with the solver {fastest['solver']!r}, "
+            f"{own['us_per_step'] / fastest['us_per_step']:.2g} times; other detectors find other contacts",
+        ]
+    return "\n".join(lines)

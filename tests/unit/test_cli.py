@@ -1,0 +1,138 @@
+"""The command line."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import pydart2
+from pydart2.cli import main, parser
+
+LINK = """<link name="{0}"><inertial><mass value="2"/><inertia ixx="{1}" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>
+  </inertial><visual><geometry><box size="1 2 3"/></geometry></visual>
+  <collision><geometry><sphere radius="0.5"/></geometry></collision></link>"""
+JOINT = """<joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/><axis xyz="0 1 0"/>
+  <limit lower="{0}" upper="1.5" effort="7" velocity="1"/></joint>"""
+SWING = """<skel version="1.0"><world name="w"><skeleton name="swing"><body name="b">
+  <inertia><mass>1</mass></inertia></body><joint type="revolute" name="hinge"><parent>world</parent><child>b</child>
+  <axis><xyz>1 0 0</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis><init_pos>2</init_pos></joint>
+  </skeleton></world></skel>"""
+COMMANDS = ("inspect", "check", "render", "record", "bench")
+
+
+@pytest.fixture
+def arm(tmp_path: Path) -> str:
+    return write(tmp_path, 1.0, -0.5)
+
+
+def write(folder: Path, moment: float, lower: float) -> str:
+    path = folder / "arm.urdf"
+    links = LINK.format("upper", 1.0) + LINK.format("lower", moment)
+    path.write_text(f'<robot name="arm">{links}{JOINT.format(lower)}</robot>')
+    return str(path)
+
+
+def test_inspect(arm: str, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["inspect", arm])
+    text = capsys.readouterr().out
+    assert "arm: 4 kg, 2 bodies, 7 dofs" in text
+    assert "    lower  elbow" not in text and "  lower" in text
+    assert "elbow                0   -0.5    1.5       7" in text
+
+
+def test_inspect_as_json(arm: str, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["inspect", arm, "--json"])
+    [skeleton] = json.loads(capsys.readouterr().out)
+    assert [(body["name"], body["parent"]) for body in skeleton["bodies"]] == [("upper", None), ("lower", "upper")]
+    assert [shape["size"] for shape in skeleton["bodies"][1]["shapes"]] == [[1.0, 2.0, 3.0], [1.0, 1.0, 1.0]]
+    [elbow] = [dof for dof in skeleton["dofs"] if dof["name"] == "elbow"]
+    assert (elbow["limits"], elbow["force_limits"], elbow["velocity_limits"]) == ([-0.5, 1.5], [-7, 7], [-1, 1])
+
+
+def test_the_tree_is_listed_from_the_root_down(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["inspect", "sdf/atlas/atlas_v3_no_head.sdf", "--json"])
+    [atlas] = json.loads(capsys.readouterr().out)
+    seen: list[str] = []
+    for body in atlas["bodies"]:
+        assert body["parent"] is None or body["parent"] in seen
+        seen.append(body["name"])
+    assert seen.index("l_hand") == seen.index("l_farm") + 1
+    assert sum(body["mass"] for body in atlas["bodies"]) == pytest.approx(atlas["mass"])
+
+
+def test_check_finds_nothing_wrong(arm: str, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["check", arm])
+    assert capsys.readouterr().out == "loads    arm: 4 kg, 2 bodies, 7 dofs\n"
+
+
+def test_check_tells_what_cannot_be(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for model, reason in (
+        (write(tmp_path, 3.0, -0.5), "body 'lower' of 'arm' has moments of inertia that no body has: 1, 1, 3 kg m²"),
+        (SWING, "dof 'hinge' of 'swing' starts at 2, outside its limits -1 to 1"),
+    ):
+        with pytest.raises(SystemExit) as end:
+            main(["check", model, "--json"])
+        assert end.value.code == 1
+        assert any(reason in line for line in json.loads(capsys.readouterr().out)["wrong"])
+
+
+def test_render_and_record(arm: str, tmp_path: Path) -> None:
+    main(["render", arm, "-o", str(tmp_path / "a.png"), "--size", "160x120", "--camera", "front"])
+    with Image.open(tmp_path / "a.png") as picture:
+        assert picture.size == (160, 120) and np.asarray(picture).std() > 10.0
+    movie = ["-o", str(tmp_path / "a.gif"), "--size", "80x60", "--seconds", "0.2", "--fps", "10"]
+    main(["record", arm, *movie])
+    with Image.open(tmp_path / "a.gif") as picture:
+        assert getattr(picture, "n_frames", 1) == 3
+
+
+def test_bench_measures_every_choice(
+    arm: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pydart2.cli.bench._SECONDS", 0.001)
+    main(["bench", arm, "--json"])
+    data = json.loads(capsys.readouterr().out)
+    choices = {(row["detector"], row["solver"]) for row in data["choices"]}
+    assert data["dofs"] == 7 and len(choices) == len(data["choices"]) >= 8
+    assert (data["choices"][0]["detector"], data["choices"][0]["solver"]) == ("fcl", pydart2.engine_info().solver)
+    assert all(row["us_per_step"] > 0.0 for row in data["choices"])
+
+
+def test_info(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["info", "--json"])
+    data = json.loads(capsys.readouterr().out)
+    assert data["pydart2"] == pydart2.__version__ and data["numpy"] == np.__version__
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("text", [None, "", "no XML", "<robot name='x'><link/></robot>"])
+def test_a_broken_file_is_a_sentence_and_status_1(
+    command: str, text: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    if text is not None:
+        Path("robot.urdf").write_text(text)
+    with pytest.raises(SystemExit) as end:
+        main([command, "robot.urdf"])
+    assert str(end.value).startswith(f"pydart2 {command}: ") and "robot.urdf" in str(end.value)
+    assert "Traceback" not in str(end.value)
+
+
+@pytest.mark.parametrize("arguments", [["render", "x", "--size", "large"], ["fly"], []])
+def test_a_line_without_sense_is_status_2(arguments: list[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == 2
+
+
+def test_each_command_has_help() -> None:
+    [commands] = [action for action in parser()._actions if action.dest == "command"]
+    assert set(COMMANDS) < set(commands.choices or ())
+    done = subprocess.run([sys.executable, "-m", "pydart2", "render", "--help"], capture_output=True, text=True)
+    assert done.returncode == 0 and "--camera" in done.stdout
