@@ -18,6 +18,7 @@ from pydart2.contact import Contact
 from pydart2.dof import Dof
 from pydart2.engine import EngineInfo, engine_info
 from pydart2.errors import DestroyedError, LoadError, NameNotFound, PydartError, SimulationError
+from pydart2.frames import SimpleFrame
 from pydart2.joint import (
     BallJoint,
     EulerJoint,
@@ -83,6 +84,7 @@ __all__ = [
     "ScrewJoint",
     "Shape",
     "ShapeNode",
+    "SimpleFrame",
     "SimulationError",
     "SkelVector",
     "Skeleton",

@@ -76,6 +76,15 @@ class Joint:
         """Id of the skeleton."""
         return self.skeleton.id
 
+    def wrench(self) -> NDArray[np.float64]:
+        """Moment (N m) and force (N) through the joint on its child body in the last step, shape (6,).
+
+        About the joint's origin, in the axes that the joint has on the child's side; along its dofs these are the
+        forces of the motors, springs and dampers. What contacts, limits and constraints did in the step is in it. Zeros
+        before the first step.
+        """
+        return self.skeleton._handle.dynamics().joint_wrench(self.id)
+
     def set_name(self, _name: str, _renameDofs: bool = True) -> str:  # noqa: N803 (the original's)
         """Rename the joint and, if asked, its dofs; returns the name it got, which differs if it was taken."""
         self._handle.set_name(_name, _renameDofs)

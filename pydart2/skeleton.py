@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydart2 import spd
 from pydart2.bodynode import BodyNode
 from pydart2.dof import Dof
+from pydart2.dynamics import Dynamics
 from pydart2.errors import DestroyedError, NameNotFound
 from pydart2.indexing import Names
 from pydart2.joint import Joint, create_joint
@@ -39,7 +40,7 @@ class Controller(Protocol):
         """The generalized forces for the next step, shape (ndofs,), N m or N."""
 
 
-class Skeleton:
+class Skeleton(Dynamics):
     """A robot or another articulated body, in a world.
 
     ``q``, ``dq``, ``ddq`` are copies: change one and assign it back, or write by name with ``set_positions``::

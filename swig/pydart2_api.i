@@ -32,6 +32,7 @@
 %include "shape.i"
 %include "soft_body.i"
 %include "bodynode.i"
+%include "dynamics.i"
 %include "skeleton.i"
 %include "model_source.i"
 %include "world.i"

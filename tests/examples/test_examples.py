@@ -34,6 +34,7 @@ CLAIMS = {
     "inverse_dynamics": 1,
     "inspect_skeleton": 0,
     "many_worlds": 2,
+    "momentum": 1,
     "pull": 2,
     "save_restore": 1,
     "shapes": 8,

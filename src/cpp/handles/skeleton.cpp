@@ -153,6 +153,11 @@ MarkerHandle SkeletonHandle::marker(long index) const
   return {skeleton_.world, skeleton_.skeleton, marker};
 }
 
+DynamicsHandle SkeletonHandle::dynamics() const
+{
+  return {skeleton_.world, skeleton_.skeleton};
+}
+
 std::vector<std::string> SkeletonHandle::dof_names() const
 {
   skeleton_.get();

@@ -10,6 +10,7 @@
 #include "dynamics/mass_matrix.hpp"
 #include "handles/bodynode.hpp"
 #include "handles/dof.hpp"
+#include "handles/dynamics.hpp"
 #include "handles/joint.hpp"
 #include "handles/marker.hpp"
 #include "handles/part.hpp"
@@ -45,6 +46,7 @@ public:
   DofHandle dof(long index) const;
   MarkerHandle marker(long index) const;
   std::vector<std::string> dof_names() const;
+  DynamicsHandle dynamics() const;
 
   void positions(Output& like) const;
   void velocities(Output& like) const;

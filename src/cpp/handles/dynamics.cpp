@@ -1,0 +1,88 @@
+#include "handles/dynamics.hpp"
+
+#include <dart/math/Geometry.hpp>
+
+#include "base/checks.hpp"
+
+namespace pydart2 {
+
+DynamicsHandle::DynamicsHandle(WorldRef world, SkeletonRef skeleton)
+  : skeleton_(std::move(world), skeleton, skeleton->skeleton.get())
+{
+}
+
+dart::dynamics::Skeleton& DynamicsHandle::with_mass() const
+{
+  auto& skel = skeleton();
+  if (skel.getMass() == 0) // the engine asserts
+    throw Error(Kind::value, "skeleton '" + skel.getName() + "' has no mass, so it has no centre of mass");
+  return skel;
+}
+
+void DynamicsHandle::aug_mass_matrix(Output& out) const
+{
+  const Eigen::MatrixXd& M = skeleton().getAugMassMatrix();
+  matrix(out, M.rows(), M.cols()) = M;
+}
+
+void DynamicsHandle::damping_forces(Output& out) const
+{
+  const auto dofs = skeleton().getDofs();
+  double* force = out.vector(static_cast<long>(dofs.size()));
+  for (const auto* dof : dofs)
+    *force++ = -dof->getDampingCoefficient() * dof->getVelocity();
+}
+
+void DynamicsHandle::spring_forces(Output& out) const
+{
+  const auto dofs = skeleton().getDofs();
+  double* force = out.vector(static_cast<long>(dofs.size()));
+  for (const auto* dof : dofs)
+    *force++ = dof->getSpringStiffness() * (dof->getRestPosition() - dof->getPosition());
+}
+
+void DynamicsHandle::com_jacobian(Output& out) const
+{
+  const auto J = with_mass().getCOMJacobian();
+  matrix(out, J.rows(), J.cols()) = J;
+}
+
+void DynamicsHandle::com_linear_jacobian(Output& out) const
+{
+  const auto J = with_mass().getCOMLinearJacobian();
+  matrix(out, J.rows(), J.cols()) = J;
+}
+
+void DynamicsHandle::com_linear_jacobian_deriv(Output& out) const
+{
+  const auto J = with_mass().getCOMLinearJacobianDeriv();
+  matrix(out, J.rows(), J.cols()) = J;
+}
+
+void DynamicsHandle::centroidal_momentum_matrix(Output& out) const
+{
+  const auto& skel = with_mass();
+  if (skel.getNumSoftBodyNodes() > 0)
+    throw Error(
+        Kind::value, "skeleton '" + skel.getName() + "' has soft bodies; the momentum of their points is not in its dofs");
+  auto A = matrix(out, 6, static_cast<long>(skel.getNumDofs()));
+  A.setZero();
+  Eigen::Isometry3d com = Eigen::Isometry3d::Identity();
+  com.translation() = skel.getCOM();
+  for (const auto* body : skel.getBodyNodes()) {
+    const auto to_body = body->getWorldTransform().inverse() * com;
+    const auto momenta = (body->getInertia().getSpatialTensor() * body->getJacobian()).eval();
+    for (long k = 0; k < momenta.cols(); ++k)
+      A.col(static_cast<long>(body->getDependentGenCoordIndex(static_cast<std::size_t>(k))))
+          += dart::math::dAdT(to_body, momenta.col(k));
+  }
+}
+
+Vector6d DynamicsHandle::joint_wrench(long index) const
+{
+  auto& skel = skeleton();
+  const auto& joint = *skel.getJoint(check::index(index, skel.getNumJoints(), "joint"));
+  return dart::math::dAdT(joint.getTransformFromChildBodyNode(), joint.getChildBodyNode()->getBodyForce());
+}
+
+} // namespace pydart2
