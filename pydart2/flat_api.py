@@ -102,12 +102,12 @@ def _index_of_first_dof(handle: WorldHandle, i: int) -> int:
 
 
 def _set_collision_detector(handle: WorldHandle, detector_type: int) -> None:
-    """Set the detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE); ValueError for any other."""
+    """Set the detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE) 4 (native); ValueError for any other."""
     handle.set_collision_detector(_named(world._DETECTORS, detector_type, "collision detector"))
 
 
 def _collision_detector(handle: WorldHandle) -> int:
-    """The detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE), -1 for another."""
+    """The detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE) 4 (native), -1 for another."""
     name = handle.collision_detector()
     return world._DETECTORS.index(name) if name in world._DETECTORS else -1
 

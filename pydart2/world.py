@@ -14,7 +14,7 @@ from pydart2 import manager
 from pydart2._native import WorldHandle
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
-from pydart2.errors import DestroyedError
+from pydart2.errors import DestroyedError, NameNotFound
 from pydart2.recording import Recording
 from pydart2.skeleton import Controller, Skeleton
 from pydart2.state import Snapshot, model_hash
@@ -22,7 +22,7 @@ from pydart2.state import Snapshot, model_hash
 if TYPE_CHECKING:
     from pydart2.loading import Missing, Source
 
-_DETECTORS = ("dart", "fcl", "bullet", "ode")
+_DETECTORS = ("dart", "fcl", "bullet", "ode", "native")
 
 
 def create_world(step: float, skel_path: str | os.PathLike[str] | None = None) -> World:
@@ -91,6 +91,7 @@ class World:
     FCL_COLLISION_DETECTOR: ClassVar[int] = 1
     BULLET_COLLISION_DETECTOR: ClassVar[int] = 2
     ODE_COLLISION_DETECTOR: ClassVar[int] = 3
+    NATIVE_COLLISION_DETECTOR: ClassVar[int] = 4
 
     #: The class of the skeletons that the world makes.
     CLASS_SKELETON: ClassVar[type[Skeleton]] = Skeleton
@@ -375,11 +376,17 @@ class World:
         """The pairs of bodies that pass through each other, to be changed; also `collision_filter`."""
         return self.collision_filter
 
-    def set_collision_detector(self, detector_type: int) -> None:
-        """Set one of the `*_COLLISION_DETECTOR`, 0 to 3; ValueError for any other."""
-        if detector_type not in range(len(_DETECTORS)):
-            raise ValueError(f"no collision detector {detector_type!r}; they are 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE)")
-        self._handle.set_collision_detector(_DETECTORS[detector_type])
+    def set_collision_detector(self, detector: int | str) -> None:
+        """Choose how contacts are found: "dart", "fcl", "bullet", "ode", "native" or one of `*_COLLISION_DETECTOR`.
+
+        "native" is the package's own, the others are the engine's. ValueError for any other, NameNotFound for a name.
+        """
+        if isinstance(detector, str) and detector not in _DETECTORS:
+            raise NameNotFound("collision detector", detector, f"{', '.join(_DETECTORS)}", _DETECTORS)
+        if not isinstance(detector, str) and detector not in range(len(_DETECTORS)):
+            known = " ".join(f"{i} ({name})" for i, name in enumerate(_DETECTORS))
+            raise ValueError(f"no collision detector {detector!r}; they are {known}")
+        self._handle.set_collision_detector(detector if isinstance(detector, str) else _DETECTORS[detector])
 
     def collision_detector(self) -> int:
         """One of the `*_COLLISION_DETECTOR`, -1 for another."""

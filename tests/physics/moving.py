@@ -9,7 +9,7 @@ import numpy as np
 import pydart2
 from oracle.models import dart_model
 
-DETECTORS = range(4)
+DETECTORS = range(5)
 MODELS = ("fullbody1", "soft_cubes")
 
 

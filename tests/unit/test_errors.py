@@ -253,12 +253,18 @@ def test_bad_dof_of_a_joint(skel: pydart2.Skeleton) -> None:
         skel.joint("hand_joint").set_damping_coefficient(-1, 1.0)
 
 
-@pytest.mark.parametrize("detector", [-1, 4, "fcl", None, 1.5])
+@pytest.mark.parametrize("detector", [-1, 5, None, 1.5])
 def test_bad_detector(world: pydart2.World, detector: Any) -> None:
-    with pytest.raises(ValueError, match=r"no collision detector .*; they are 0 \(DART\) 1 \(FCL\)") as info:
+    with pytest.raises(ValueError, match=r"no collision detector .*; they are 0 \(dart\) 1 \(fcl\)") as info:
         world.set_collision_detector(detector)
     assert repr(detector) in str(info.value)
     world.step()
+
+
+@pytest.mark.parametrize(("asked", "nearest"), [("fclo", "fcl"), ("Bullet", "bullet"), ("natve", "native")])
+def test_bad_detector_name(world: pydart2.World, asked: str, nearest: str) -> None:
+    with pytest.raises(pydart2.NameNotFound, match=f"no collision detector '{asked}' .*; did you mean '{nearest}'?"):
+        world.set_collision_detector(asked)
 
 
 @pytest.mark.parametrize("actuator", [-1, 7, "SERVO", None])

@@ -154,8 +154,8 @@ def test_the_wrong_kind_is_a_type_error(name: str, args: tuple[Any, ...]) -> Non
 
 def test_numbers_that_mean_nothing_are_value_errors() -> None:
     wid = papi.createWorldFromSkel(CUBES)
-    with pytest.raises(ValueError, match="no collision detector 4"):
-        papi.world__setCollisionDetector(wid, 4)
+    with pytest.raises(ValueError, match="no collision detector 5"):
+        papi.world__setCollisionDetector(wid, 5)
     with pytest.raises(ValueError, match="no actuator type 9"):
         papi.joint__setActuatorType(wid, 1, 0, 9)
 

@@ -5,6 +5,7 @@
 
 #include "base/errors.hpp"
 #include "collision/fcl_detector.hpp"
+#include "collision/native_detector.hpp"
 #include "collision/ode_detector.hpp"
 
 namespace pydart2 {
@@ -29,7 +30,9 @@ CollisionDetectorPtr make_detector(const std::string& name)
     return BulletCollisionDetector::create();
   if (name == "ode")
     return OdeDetector::create();
-  throw Error(Kind::value, "no collision detector '" + name + "'; there are dart, fcl, bullet and ode");
+  if (name == "native")
+    return NativeDetector::create();
+  throw Error(Kind::value, "no collision detector '" + name + "'; there are dart, fcl, bullet, ode and native");
 }
 
 void use_detector(ConstraintSolver& solver, const CollisionDetectorPtr& detector)

@@ -21,7 +21,7 @@ auto with_ode(Make make)
   return make();
 }
 
-/// "dart", "fcl", "bullet" or "ode"; ValueError for any other name.
+/// "dart", "fcl", "bullet", "ode" or "native"; ValueError for any other name.
 dart::collision::CollisionDetectorPtr make_detector(const std::string& name);
 
 /// Lets a solver find contacts with a detector, in the order of a world that the engine has just loaded. Shapes that

@@ -10,6 +10,7 @@
 #include "base/checks.hpp"
 #include "base/errors.hpp"
 #include "collision/detector.hpp"
+#include "collision/native_detector.hpp"
 #include "state/dof_state.hpp"
 
 namespace pydart2 {
@@ -169,6 +170,7 @@ void solve_constraints(WorldRecord& record, double time)
   const bool ode = solver.getCollisionDetector()->getType() == "ode";
   check_range(record, ode, time);
   const auto lock = ode ? lock_ode() : std::unique_lock<std::recursive_mutex>();
+  native_group(solver); // the order of the shapes
   solver.solve();
 }
 

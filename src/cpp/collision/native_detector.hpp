@@ -1,0 +1,82 @@
+#pragma once
+
+#include <dart/collision/CollisionDetector.hpp>
+#include <dart/collision/CollisionGroup.hpp>
+#include <dart/constraint/ConstraintSolver.hpp>
+
+#include "collision/native_scene.hpp"
+
+namespace pydart2 {
+
+/// The package's own detector: exact contact points of convex shapes and of meshes of triangles, made afresh in each step
+/// and in an order that only the model settles. It knows nothing of soft bodies.
+class NativeDetector : public dart::collision::CollisionDetector
+{
+public:
+  using CollisionDetector::createCollisionGroup;
+  static std::shared_ptr<NativeDetector> create();
+
+  std::shared_ptr<CollisionDetector> cloneWithoutCollisionObjects() const override { return create(); }
+  const std::string& getType() const override;
+  std::unique_ptr<dart::collision::CollisionGroup> createCollisionGroup() override;
+
+  bool collide(
+      dart::collision::CollisionGroup* group, const dart::collision::CollisionOption& option,
+      dart::collision::CollisionResult* result) override;
+  bool collide(
+      dart::collision::CollisionGroup* group, dart::collision::CollisionGroup* other,
+      const dart::collision::CollisionOption& option, dart::collision::CollisionResult* result) override;
+
+  /// Not measured: 0, with a warning.
+  double distance(
+      dart::collision::CollisionGroup* group, const dart::collision::DistanceOption& option,
+      dart::collision::DistanceResult* result) override;
+  double distance(
+      dart::collision::CollisionGroup* group, dart::collision::CollisionGroup* other,
+      const dart::collision::DistanceOption& option, dart::collision::DistanceResult* result) override;
+
+protected:
+  std::unique_ptr<dart::collision::CollisionObject> createCollisionObject(
+      const dart::dynamics::ShapeFrame* frame) override;
+  void refreshCollisionObject(dart::collision::CollisionObject* object) override;
+
+private:
+  NativeDetector();
+
+  std::vector<native::Touch> touches_;
+};
+
+/// Shapes in the order of the solver's skeletons, or in that in which they came.
+class NativeGroup : public dart::collision::CollisionGroup
+{
+public:
+  using CollisionGroup::CollisionGroup;
+
+  void set_order(const std::vector<dart::dynamics::SkeletonPtr>& skeletons);
+  native::Scene& scene();
+
+protected:
+  void initializeEngineData() override {}
+  void addCollisionObjectToEngine(dart::collision::CollisionObject*) override { stale_ = true; }
+  void addCollisionObjectsToEngine(const std::vector<dart::collision::CollisionObject*>&) override { stale_ = true; }
+  void removeCollisionObjectFromEngine(dart::collision::CollisionObject*) override { stale_ = true; }
+  void removeAllCollisionObjectsFromEngine() override { stale_ = true; }
+  void updateCollisionGroupEngineData() override {}
+
+private:
+  std::vector<native::Object*> sorted() const;
+
+  std::vector<const dart::dynamics::Skeleton*> order_;
+  bool stale_ = true;
+  native::Scene scene_;
+};
+
+/// The solver's group if its detector is a NativeDetector, with the shapes in the order of the skeletons; else null.
+NativeGroup* native_group(dart::constraint::ConstraintSolver& solver);
+
+/// The contact points of a solver's shapes as its collision filter has them, in an order that only the model settles;
+/// ValueError if its detector is another.
+void find_contacts(
+    dart::constraint::ConstraintSolver& solver, const ContactMargin& margin, std::vector<native::Touch>& touches);
+
+} // namespace pydart2

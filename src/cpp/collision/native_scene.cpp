@@ -1,0 +1,204 @@
+#include "collision/native_scene.hpp"
+
+#include <algorithm>
+#include <dart/dynamics/ShapeNode.hpp>
+
+#include "collision/native_pairs.hpp"
+
+namespace pydart2::native {
+
+namespace {
+
+/// How far a point of a shape can come.
+double reach_of(const dart::dynamics::ShapeFrame& frame, const Vector& center, const Bounds& bounds, double time)
+{
+  const Vector turning = frame.getAngularVelocity();
+  const Vector moving = frame.getLinearVelocity() + turning.cross(center - frame.getWorldTransform().translation());
+  return time * (moving.norm() + turning.norm() * (bounds.high - bounds.low).norm() / 2.0);
+}
+
+/// How fast the surfaces at a contact point come nearer.
+double closing(const ContactPoint& point)
+{
+  const auto velocity = [&](const dart::dynamics::ShapeFrame& frame) -> Vector {
+    return frame.getLinearVelocity() + frame.getAngularVelocity().cross(point.point - frame.getWorldTransform().translation());
+  };
+  return point.normal.dot(velocity(*point.b) - velocity(*point.a));
+}
+
+double allowed(double least, double size)
+{
+  return std::min(least, 0.01 * size);
+}
+
+} // namespace
+
+Object::Object(dart::collision::CollisionDetector* detector, const dart::dynamics::ShapeFrame* frame)
+  : CollisionObject(detector, frame)
+{
+  refresh();
+}
+
+void Object::refresh()
+{
+  geometry_ = geometry_of(*getShape());
+}
+
+void Scene::set_objects(const std::vector<Object*>& objects)
+{
+  items_.clear();
+  unbounded_.clear();
+  pairs_.clear();
+  built_ = false;
+  for (auto* object : objects) {
+    if (object->geometry().form == Form::none)
+      continue;
+    const auto* node = object->getShapeFrame()->asShapeNode();
+    const auto* body = node == nullptr ? nullptr : node->getBodyNodePtr().get();
+    const std::size_t place = body == nullptr ? 0 : body->getIndexInSkeleton();
+    const bool bounded = object->geometry().form != Form::plane;
+    if (!bounded)
+      unbounded_.push_back(static_cast<int>(items_.size()));
+    items_.push_back({object, body, place, bounded, Pose::Identity(), 0.0, 0.0, {}, {}, false});
+    items_.back().pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN()); // equal to no pose
+    items_.back().wide = {Vector::Constant(1.0), Vector::Constant(-1.0)}; // contains nothing
+  }
+}
+
+bool Scene::reordered() const
+{
+  return std::any_of(items_.begin(), items_.end(), [](const Item& item) {
+    return item.body != nullptr && item.body->getIndexInSkeleton() != item.place;
+  });
+}
+
+/// Looks where the shapes are; those that have left their wide boxes are escaped.
+void Scene::place(const ContactMargin& margin)
+{
+  escaped_.clear();
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    auto& item = items_[i];
+    const auto& geometry = item.object->geometry();
+    const auto* frame = item.object->getShapeFrame();
+    const Pose& pose = frame->getWorldTransform();
+    const bool same_margin = margin.time_step <= 0 && item.reach == 0 && item.least == allowed(margin.least, geometry.size);
+    if (same_margin && item.pose.matrix() == pose.matrix())
+      continue;
+    item.pose = pose;
+    item.least = allowed(margin.least, geometry.size);
+    if (!item.bounded)
+      continue;
+    item.bounds = bounds_of(geometry, pose);
+    item.reach = 0.0;
+    if (margin.time_step > 0)
+      item.reach = reach_of(*frame, (item.bounds.low + item.bounds.high) / 2.0, item.bounds, margin.time_step);
+    const double more = std::max(item.least, item.reach);
+    item.bounds.low.array() -= more;
+    item.bounds.high.array() += more;
+    if (!item.wide.contains(item.bounds)) {
+      widen(item);
+      escaped_.push_back(static_cast<int>(i));
+    }
+  }
+}
+
+void Scene::widen(Item& item)
+{
+  const double more = 0.1 * (item.bounds.high - item.bounds.low).norm();
+  item.wide = {item.bounds.low.array() - more, item.bounds.high.array() + more};
+  item.escaped = true;
+}
+
+void Scene::update_tree()
+{
+  if (built_ && !tree_.worn()) {
+    for (const int index : escaped_)
+      tree_.move(index, item(index).wide);
+    return;
+  }
+  std::vector<Bounds> boxes(items_.size());
+  std::vector<int> leaves;
+  for (std::size_t i = 0; i < items_.size(); ++i)
+    if (items_[i].bounded) {
+      boxes[i] = items_[i].wide;
+      leaves.push_back(static_cast<int>(i));
+    }
+  tree_.build(boxes, leaves);
+  built_ = true;
+}
+
+/// Brings the pairs whose wide boxes overlap up to date.
+void Scene::update(const ContactMargin& margin)
+{
+  place(margin);
+  if (escaped_.empty())
+    return;
+  update_tree();
+  const auto stale = [&](const Pair& pair) { return item(pair.first).escaped || item(pair.second).escaped; };
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), stale), pairs_.end());
+  new_pairs_.clear();
+  for (const int index : escaped_)
+    find_pairs_of(index);
+  std::sort(new_pairs_.begin(), new_pairs_.end());
+  const auto middle = static_cast<std::ptrdiff_t>(pairs_.size());
+  pairs_.insert(pairs_.end(), new_pairs_.begin(), new_pairs_.end());
+  std::inplace_merge(pairs_.begin(), pairs_.begin() + middle, pairs_.end());
+  for (const int index : escaped_)
+    item(index).escaped = false;
+}
+
+void Scene::find_pairs_of(int index)
+{
+  const auto& mine = item(index);
+  const auto add = [&](int other) {
+    const auto& its = item(other);
+    const bool twice = its.escaped && its.bounded && other <= index; // it finds this one too
+    if (other != index && !twice && (mine.body == nullptr || mine.body != its.body))
+      new_pairs_.emplace_back(std::min(index, other), std::max(index, other));
+  };
+  tree_.overlaps(mine.wide, add);
+  for (const int plane : unbounded_)
+    add(plane);
+}
+
+void Scene::find(
+    const dart::collision::CollisionFilter* filter, const ContactMargin& margin, std::vector<Touch>& touches)
+{
+  update(margin);
+  for (const auto& [first, second] : pairs_) {
+    auto &a = item(first), &b = item(second);
+    if (a.bounded && b.bounded && !a.bounds.overlaps(b.bounds))
+      continue;
+    if (filter == nullptr || !filter->ignoresCollision(a.object, b.object))
+      touch(a, b, margin, touches);
+  }
+}
+
+void Scene::touch(Item& a, Item& b, const ContactMargin& margin, std::vector<Touch>& touches)
+{
+  const double least = std::min(a.least, b.least);
+  points_.clear();
+  collide(
+      a.object->geometry(), b.object->geometry(), a.pose.inverse(Eigen::Isometry) * b.pose,
+      std::max(least, a.reach + b.reach), points_);
+  for (const auto& point : points_) {
+    ContactPoint made{
+        a.pose * point.at, a.pose.linear() * point.normal, point.depth, a.object->getShapeFrame(),
+        b.object->getShapeFrame(), point.feature};
+    if (-made.depth <= least || -made.depth <= closing(made) * margin.time_step)
+      touches.push_back({made, a.object, b.object});
+  }
+}
+
+void Scene::find_between(Scene& other, const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches)
+{
+  update({});
+  other.update({});
+  for (auto& a : items_)
+    for (auto& b : other.items_)
+      if ((!a.bounded || !b.bounded || a.bounds.overlaps(b.bounds))
+          && (filter == nullptr || !filter->ignoresCollision(a.object, b.object)))
+        touch(a, b, {}, touches);
+}
+
+} // namespace pydart2::native

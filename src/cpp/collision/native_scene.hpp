@@ -1,0 +1,88 @@
+#pragma once
+
+#include <dart/collision/CollisionFilter.hpp>
+#include <dart/collision/CollisionObject.hpp>
+#include <dart/dynamics/BodyNode.hpp>
+
+#include "collision/contact_point.hpp"
+#include "collision/native_manifold.hpp"
+#include "collision/native_tree.hpp"
+
+namespace pydart2::native {
+
+/// A shape of a world, as the engine's filters know it.
+class Object : public dart::collision::CollisionObject
+{
+public:
+  Object(dart::collision::CollisionDetector* detector, const dart::dynamics::ShapeFrame* frame);
+
+  /// Reads the shape anew.
+  void refresh();
+  const Geometry& geometry() const { return geometry_; }
+
+protected:
+  void updateEngineData() override {}
+
+private:
+  Geometry geometry_;
+};
+
+/// A contact point and its two objects.
+struct Touch
+{
+  ContactPoint point;
+  Object* a;
+  Object* b;
+};
+
+/// All shapes that may collide with each other, and which are near each other. Its memory of earlier steps saves time
+/// only: what it finds depends on the shapes and where they are, not on what was before.
+class Scene
+{
+public:
+  /// In the order of the contacts.
+  void set_objects(const std::vector<Object*>& objects);
+
+  /// Whether bodies have another place in their skeletons than when the objects were set.
+  bool reordered() const;
+
+  /// The contact points of pairs in the order of their shapes.
+  void find(const dart::collision::CollisionFilter* filter, const ContactMargin& margin, std::vector<Touch>& touches);
+
+  /// Those between shapes of two scenes.
+  void find_between(Scene& other, const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches);
+
+private:
+  struct Item
+  {
+    Object* object;
+    const dart::dynamics::BodyNode* body; ///< Null: a frame of its own.
+    std::size_t place; ///< Of the body in its skeleton.
+    bool bounded;
+    Pose pose;
+    double least; ///< The margin that its size allows.
+    double reach; ///< How far it may come in the margin's time.
+    Bounds bounds; ///< With the margin.
+    Bounds wide; ///< Within which it may move without being looked for anew.
+    bool escaped;
+  };
+  using Pair = std::pair<int, int>;
+
+  Item& item(int i) { return items_[static_cast<std::size_t>(i)]; }
+  void place(const ContactMargin& margin);
+  void widen(Item& item);
+  void update(const ContactMargin& margin);
+  void update_tree();
+  void find_pairs_of(int index);
+  void touch(Item& a, Item& b, const ContactMargin& margin, std::vector<Touch>& touches);
+
+  std::vector<Item> items_;
+  std::vector<int> unbounded_;
+  std::vector<int> escaped_;
+  BoundsTree tree_;
+  bool built_ = false;
+  std::vector<Pair> pairs_, new_pairs_;
+  Points points_;
+};
+
+} // namespace pydart2::native

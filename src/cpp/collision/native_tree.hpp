@@ -1,0 +1,60 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "collision/native_geometry.hpp"
+
+namespace pydart2::native {
+
+/// A binary tree of boxes. It is built once, top down, and its boxes grow with what moves; when that has been as much as
+/// the tree has leaves, build() makes it good again. What overlaps() finds does not depend on the tree's shape, but for
+/// the order.
+class BoundsTree
+{
+public:
+  /// Of the boxes with the numbers in `leaves`.
+  void build(const std::vector<Bounds>& boxes, std::vector<int> leaves);
+
+  /// Moves a leaf.
+  void move(int leaf, const Bounds& bounds);
+  bool worn() const { return moves_ > nodes_.size() / 2; }
+
+  /// Calls `use` with each leaf whose box overlaps `bounds`.
+  template <class Use>
+  void overlaps(const Bounds& bounds, const Use& use) const
+  {
+    if (nodes_.empty())
+      return;
+    std::vector<int>& stack = stack_;
+    stack.assign(1, 0);
+    while (!stack.empty()) {
+      const Node& node = nodes_[static_cast<std::size_t>(stack.back())];
+      stack.pop_back();
+      if (!node.bounds.overlaps(bounds))
+        continue;
+      if (node.leaf >= 0) {
+        use(node.leaf);
+      } else {
+        stack.push_back(node.right);
+        stack.push_back(node.left);
+      }
+    }
+  }
+
+private:
+  struct Node
+  {
+    Bounds bounds;
+    int parent, left, right, leaf; ///< -1: none.
+  };
+
+  int build(const std::vector<Bounds>& boxes, std::vector<int>::iterator begin, std::vector<int>::iterator end, int parent);
+
+  std::vector<Node> nodes_;
+  std::vector<int> leaf_of_; ///< The node of each leaf.
+  std::size_t moves_ = 0;
+  mutable std::vector<int> stack_;
+};
+
+} // namespace pydart2::native
