@@ -72,6 +72,7 @@ coverage: setup
 # The models in PyPI's pybullet (100 MB), unpacked without installing it.
 test-third-party: setup
 	$(VENV)/bin/python tools/fetch_models.py build/third-party
+	$(VENV)/bin/pip install --quiet pin example-robot-data
 	$(VENV)/bin/python -m pytest -m third_party
 
 fuzz: setup

@@ -19,6 +19,7 @@ from pydart2.dof import Dof
 from pydart2.engine import EngineInfo, engine_info
 from pydart2.errors import DestroyedError, LoadError, NameNotFound, PydartError, SimulationError
 from pydart2.frames import SimpleFrame
+from pydart2.inverse_kinematics import IKResult, Target
 from pydart2.joint import (
     BallJoint,
     EulerJoint,
@@ -72,6 +73,7 @@ __all__ = [
     "EngineInfo",
     "EulerJoint",
     "FreeJoint",
+    "IKResult",
     "Joint",
     "LoadError",
     "Marker",
@@ -90,6 +92,7 @@ __all__ = [
     "Skeleton",
     "Snapshot",
     "SoftBodyNode",
+    "Target",
     "TranslationalJoint",
     "TranslationalJoint2D",
     "UniversalJoint",

@@ -131,6 +131,14 @@ class Dynamics:
         """Angular momentum about the centre of mass (kg m²/s) and linear momentum (kg m/s), world axes, shape (6,)."""
         return self.centroidal_momentum_matrix() @ np.asarray(self.dq)
 
+    def kinetic_energy(self) -> float:
+        """Kinetic energy, J."""
+        return self._handle.kinetic_energy()
+
+    def potential_energy(self) -> float:
+        """Energy of gravity, zero at the world's origin, and of the springs, J."""
+        return self._handle.potential_energy()
+
     def _passive(self, external: bool, damping: bool, springs: bool) -> Array:
         """The sum of the forces that act without a motor."""
         force = np.zeros(self.ndofs)

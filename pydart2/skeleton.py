@@ -14,6 +14,7 @@ from pydart2.dof import Dof
 from pydart2.dynamics import Dynamics
 from pydart2.errors import DestroyedError, NameNotFound
 from pydart2.indexing import Names
+from pydart2.inverse_kinematics import IKResult, Target, solve
 from pydart2.joint import Joint, create_joint
 from pydart2.marker import Marker
 from pydart2.skel_vector import SkelVector
@@ -478,6 +479,39 @@ class Skeleton(Dynamics):
     def update_fk(self) -> None:
         """Compute all poses, velocities and accelerations now; without it each is computed when it is read."""
         self._handle.update_fk()
+
+    # Inverse kinematics (inverse_kinematics.py)
+
+    def inverse_kinematics(
+        self, targets: Mapping[str | BodyNode, Target | ArrayLike], com: ArrayLike | None = None, **options: Any
+    ) -> IKResult:
+        """Positions that put bodies where they should be; the skeleton does not move.
+
+        >>> result = robot.inverse_kinematics({"l_hand": [0.5, 0.2, 0.9], "l_foot": robot.body("l_foot").T})
+        >>> robot.q = result.q
+
+        Parameters
+        ----------
+        targets
+            Body → where it should be in the world: a position of its origin, shape (3,), m, or its pose, shape (4, 4);
+            or a Target, which has an offset and a weight.
+        com
+            Where the centre of mass should be, shape (3,), m.
+        dofs
+            The dofs that may move, by name or index; default: all.
+        posture
+            Positions that the dofs go towards as far as the targets leave them free, shape (ndofs,), rad or m.
+        start
+            Positions to start from, shape (ndofs,), rad or m; default: q.
+        tolerance
+            Distance (m) and angle (rad) to each target that is near enough, 1e-6.
+        iterations, restarts
+            At most this many steps from one start, 100, and this many other starts, 50. They are random, within the
+            limits of the joints, and the same for the same `seed`. A root that is free starts where it is.
+
+        Returns the best q that was found, also where a target is out of reach: see IKResult.
+        """
+        return solve(self, targets, com, **options)
 
     # Stable PD control (spd.py)
 

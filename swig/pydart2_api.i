@@ -33,6 +33,7 @@
 %include "soft_body.i"
 %include "bodynode.i"
 %include "dynamics.i"
+%include "inverse_kinematics.i"
 %include "skeleton.i"
 %include "model_source.i"
 %include "world.i"

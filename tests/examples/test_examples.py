@@ -36,6 +36,7 @@ CLAIMS = {
     "many_worlds": 2,
     "momentum": 1,
     "pull": 2,
+    "reach": 1,
     "save_restore": 1,
     "shapes": 8,
     "simple_tracking": 1,

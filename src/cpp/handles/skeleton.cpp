@@ -158,6 +158,11 @@ DynamicsHandle SkeletonHandle::dynamics() const
   return {skeleton_.world, skeleton_.skeleton};
 }
 
+InverseKinematicsHandle SkeletonHandle::inverse_kinematics() const
+{
+  return {skeleton_.world, skeleton_.skeleton};
+}
+
 std::vector<std::string> SkeletonHandle::dof_names() const
 {
   skeleton_.get();

@@ -11,6 +11,7 @@
 #include "handles/bodynode.hpp"
 #include "handles/dof.hpp"
 #include "handles/dynamics.hpp"
+#include "handles/inverse_kinematics.hpp"
 #include "handles/joint.hpp"
 #include "handles/marker.hpp"
 #include "handles/part.hpp"
@@ -47,6 +48,7 @@ public:
   MarkerHandle marker(long index) const;
   std::vector<std::string> dof_names() const;
   DynamicsHandle dynamics() const;
+  InverseKinematicsHandle inverse_kinematics() const;
 
   void positions(Output& like) const;
   void velocities(Output& like) const;
