@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.building.bodies import BodyBuilding
 from pydart2.frames import Frame
 from pydart2.shapenode import ShapeNode
 from pydart2.state import part_of
@@ -24,7 +25,7 @@ _log = logging.getLogger("pydart2")
 _ORIGIN = (0.0, 0.0, 0.0)
 
 
-class BodyNode(Frame):
+class BodyNode(Frame, BodyBuilding):
     """A rigid or soft body of a skeleton.
 
     Jacobians have the angular rows before the linear ones. ``full=True`` gives a column to each dof of the skeleton,

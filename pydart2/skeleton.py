@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import spd
 from pydart2.bodynode import BodyNode
+from pydart2.building.skeletons import SkeletonBuilding
 from pydart2.dof import Dof
 from pydart2.dynamics import Dynamics
 from pydart2.errors import DestroyedError, NameNotFound
@@ -41,7 +42,7 @@ class Controller(Protocol):
         """The generalized forces for the next step, shape (ndofs,), N m or N."""
 
 
-class Skeleton(Dynamics):
+class Skeleton(Dynamics, SkeletonBuilding):
     """A robot or another articulated body, in a world.
 
     ``q``, ``dq``, ``ddq`` are copies: change one and assign it back, or write by name with ``set_positions``::
@@ -115,6 +116,12 @@ class Skeleton(Dynamics):
         for parts in (self.joints, self.bodynodes, self.markers):
             for part in parts:
                 part.build()
+
+    def _new_marker(self, index: int) -> Marker:
+        marker = Marker(self, index)
+        self.markers.append(marker)
+        marker.build()
+        return marker
 
     def _make_body(self, index: int) -> BodyNode:
         return (SoftBodyNode if self._handle.bodynode(index).is_soft() else BodyNode)(self, index)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import manager
 from pydart2._native import WorldHandle
+from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError, NameNotFound
@@ -49,7 +50,7 @@ def _rebuild(
     return world
 
 
-class World:
+class World(WorldBuilding):
     """A simulated world.
 
     >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")
@@ -180,16 +181,19 @@ class World:
 
         model = read_model(filename, Options(packages, missing_meshes, safe))
         skel = (CLASS or self.CLASS_SKELETON)(self, _filename=model)
-        self.skeletons.append(skel)
-        self._find_controllers()
+        self._append(skel)
         return skel
 
     def add_skeleton_from_id(self, _skel_id: int) -> Skeleton:
         """Make an object for a skeleton that the engine's world has already."""
         skel = self.CLASS_SKELETON(self, _id=_skel_id)
-        self.skeletons.append(skel)
-        self._find_controllers()
+        self._append(skel)
         return skel
+
+    def _append(self, skel: Skeleton) -> None:
+        self.skeletons.append(skel)
+        if skel.controller is not None:
+            self._find_controllers()
 
     def remove_skeleton(self, skel: Skeleton) -> None:
         """Take a skeleton out of the world, with the constraints that hold it; it can no longer be used."""

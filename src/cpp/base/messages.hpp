@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 /// What the engine prints during our calls, on std::cout and std::cerr, is kept for Python's logging. What other code
@@ -51,6 +52,24 @@ std::vector<Message> take();
 
 /// Adds to this thread's messages those that another thread took while it worked for this one.
 void give(std::vector<Message> messages);
+
+/// What is printed while one is alive is lost: the engine's warnings about what is meant so.
+class Ignoring
+{
+public:
+  Ignoring() : before_(take()) {}
+  ~Ignoring()
+  {
+    take();
+    give(std::move(before_));
+  }
+  Ignoring(const Ignoring&) = delete;
+  Ignoring& operator=(const Ignoring&) = delete;
+
+private:
+  const Listening listening_;
+  std::vector<Message> before_;
+};
 
 /// The warnings and errors since the last take(), one after another, repeats too: the reason why a parser gave up.
 std::string problems();

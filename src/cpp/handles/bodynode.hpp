@@ -36,6 +36,14 @@ public:
   int dependent_dof(long index) const;
   int num_shapenodes() const;
   ShapeNodeHandle shapenode(long index) const;
+
+  /// Adds a shape of the engine's type with its sizes (built.hpp), or a mesh or field of heights; returns its index.
+  /// It is drawn, takes part in contacts, both or neither.
+  int add_shape(const std::string& type, const VectorIn& sizes, const std::string& name, bool visible, bool collides);
+  int add_mesh(const MatrixIn& vertices, const MatrixIn& triangles, const std::string& name, bool visible, bool collides);
+  int add_heightfield(const MatrixIn& heights, const Eigen::Vector3d& scale, const std::string& name, bool visible, bool collides);
+  void remove_shape(long index);
+  int add_marker(const std::string& name, const Eigen::Vector3d& position);
   bool is_soft() const;
   SoftBodyHandle soft_body() const;
 
@@ -48,6 +56,9 @@ public:
   void set_mass(double mass);
   Eigen::Vector3d local_com() const;
   void set_local_com(const Eigen::Vector3d& com);
+
+  /// Adds the mass of a part of the body, whose moment of inertia is about its own COM, body axes.
+  void add_mass(double mass, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia);
 
   /// About the COM, body axes.
   Eigen::Matrix3d inertia() const;

@@ -2,6 +2,7 @@
 
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/EulerJoint.hpp>
+#include <dart/dynamics/FreeJoint.hpp>
 #include <dart/dynamics/PrismaticJoint.hpp>
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/ScrewJoint.hpp>
@@ -158,6 +159,18 @@ void JointHandle::set_transform_from_parent_body_node(const Eigen::Matrix4d& tra
 void JointHandle::set_transform_from_child_body_node(const Eigen::Matrix4d& transform)
 {
   joint_->setTransformFromChildBodyNode(isometry(transform, "transform from the child body"));
+}
+
+void JointHandle::place(const Eigen::Matrix4d& pose)
+{
+  const auto transform = isometry(pose, "pose");
+  if (auto* free = dynamic_cast<dart::dynamics::FreeJoint*>(joint_.get())) {
+    const auto inner = free->getTransformFromParentBodyNode().inverse() * transform * free->getTransformFromChildBodyNode();
+    const Eigen::VectorXd q = dart::dynamics::FreeJoint::convertToPositions(inner);
+    free->setPositions(q);
+    free->setInitialPositions(q);
+  } else
+    joint_->setTransformFromParentBodyNode(transform * joint_->getTransformFromChildBodyNode());
 }
 
 Eigen::Matrix4d JointHandle::world_transform_of_child_side() const

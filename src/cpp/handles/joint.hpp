@@ -41,6 +41,9 @@ public:
   void set_transform_from_parent_body_node(const Eigen::Matrix4d& transform);
   void set_transform_from_child_body_node(const Eigen::Matrix4d& transform);
 
+  /// Where its child is in its parent: q and the initial positions of a free joint; the pose of any other.
+  void place(const Eigen::Matrix4d& pose);
+
   /// The joint's frame on the child's side and on the parent's side, in the world.
   Eigen::Matrix4d world_transform_of_child_side() const;
   Eigen::Matrix4d world_transform_of_parent_side() const;

@@ -284,4 +284,33 @@ Eigen::Matrix4d ShapeNodeHandle::world_transform() const
   return node_->getWorldTransform().matrix();
 }
 
+DynamicsAspect& ShapeNodeHandle::dynamics() const
+{
+  if (!node_->hasDynamicsAspect())
+    throw Error(Kind::value, "shape node '" + name() + "' takes no part in contacts, so it has no coefficients");
+  return *node_->getDynamicsAspect();
+}
+
+double ShapeNodeHandle::friction_coeff() const
+{
+  return dynamics().getFrictionCoeff();
+}
+
+void ShapeNodeHandle::set_friction_coeff(double coefficient)
+{
+  check::not_negative(coefficient, "friction coefficient");
+  dynamics().setFrictionCoeff(coefficient);
+}
+
+double ShapeNodeHandle::restitution_coeff() const
+{
+  return dynamics().getRestitutionCoeff();
+}
+
+void ShapeNodeHandle::set_restitution_coeff(double coefficient)
+{
+  check::not_negative(coefficient, "restitution coefficient");
+  dynamics().setRestitutionCoeff(coefficient);
+}
+
 } // namespace pydart2

@@ -114,7 +114,15 @@ public:
   void set_relative_transform(const Eigen::Matrix4d& transform);
   Eigen::Matrix4d world_transform() const;
 
+  /// Of one that takes part in contacts; ValueError otherwise.
+  double friction_coeff() const;
+  void set_friction_coeff(double coefficient);
+  double restitution_coeff() const;
+  void set_restitution_coeff(double coefficient);
+
 private:
+  dart::dynamics::DynamicsAspect& dynamics() const;
+
   ShapeHandle::Node node_;
 };
 

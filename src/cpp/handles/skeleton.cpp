@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "base/checks.hpp"
+#include "loading/built.hpp"
 #include "loading/root_joint.hpp"
+#include "state/clone.hpp"
 
 namespace pydart2 {
 
@@ -392,10 +394,15 @@ void SkeletonHandle::update_fk()
   skeleton().computeForwardKinematics();
 }
 
-void SkeletonHandle::check_tree_can_change(const char* what) const
+void SkeletonHandle::check_root_can_change(const char* what) const
 {
   if (skeleton().getNumBodyNodes() == 0)
     throw Error(Kind::value, std::string(what) + " needs a skeleton with a body; '" + name() + "' has none");
+  check_tree_can_change(what);
+}
+
+void SkeletonHandle::check_tree_can_change(const char* what) const
+{
   for (const auto& record : skeleton_.world->constraints)
     if (record.skeleton1 == skeleton_.skeleton->skeleton || record.skeleton2 == skeleton_.skeleton->skeleton)
       throw Error(
@@ -406,22 +413,59 @@ void SkeletonHandle::check_tree_can_change(const char* what) const
 
 void SkeletonHandle::set_root_joint_to_trans_and_euler()
 {
-  check_tree_can_change("set_root_joint_to_trans_and_euler()");
+  check_root_can_change("set_root_joint_to_trans_and_euler()");
   change_root_to_trans_and_euler(skeleton());
   tree_changed(RootChange::trans_and_euler);
 }
 
 void SkeletonHandle::set_root_joint_to_weld()
 {
-  check_tree_can_change("set_root_joint_to_weld()");
+  check_root_can_change("set_root_joint_to_weld()");
   change_root_to_weld(skeleton());
   tree_changed(RootChange::weld);
 }
 
+int SkeletonHandle::add_body(
+    long parent,
+    const std::string& name,
+    const std::string& joint_type,
+    const std::string& joint_name,
+    const MatrixIn& axes)
+{
+  auto& skel = skeleton();
+  check_tree_can_change("add_body()");
+  check_new_name(name, skel.getBodyNode(name) != nullptr, "body");
+  check_new_name(joint_name, skel.getJoint(joint_name) != nullptr, "joint");
+  check::shape(axes, static_cast<std::size_t>(axes.rows), 3, "axes");
+  built::NewJoint joint{joint_type, joint_name, {}};
+  for (long i = 0; i < axes.rows; ++i) {
+    joint.axes.emplace_back(Eigen::Map<const Eigen::Vector3d>(axes.data + 3 * i));
+    check::direction(joint.axes.back(), "axis");
+  }
+  if (joint.axes.size() == 2 && joint.axes[0].cross(joint.axes[1]).norm() < 1e-6)
+    throw Error(Kind::value, "the two axes must not be parallel");
+  if (parent < -1)
+    check::index(parent, skel.getNumBodyNodes(), "parent");
+  auto* above = parent == -1 ? nullptr : skel.getBodyNode(check::index(parent, skel.getNumBodyNodes(), "parent"));
+  mark_built(*skeleton_.world, *skeleton_.skeleton);
+  const auto& body = built::add_body(skel, above, name, joint);
+  skeleton_.world->tree_changed(*skeleton_.skeleton);
+  return static_cast<int>(body.getIndexInSkeleton());
+}
+
+void SkeletonHandle::check_new_name(const std::string& name, bool taken, const char* what) const
+{
+  if (name.empty())
+    throw Error(Kind::value, std::string("a ") + what + " needs a name");
+  if (taken)
+    throw Error(Kind::value, "skeleton '" + skeleton().getName() + "' has a " + what + " '" + name + "' already");
+}
+
 void SkeletonHandle::tree_changed(RootChange change)
 {
-  skeleton_.skeleton->root_changes.push_back(change);
-  ++skeleton_.skeleton->structure;
+  if (!skeleton_.skeleton->built)
+    skeleton_.skeleton->root_changes.push_back(change);
+  skeleton_.world->tree_changed(*skeleton_.skeleton);
 }
 
 } // namespace pydart2

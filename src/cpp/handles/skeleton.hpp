@@ -100,11 +100,17 @@ public:
   /// Every handle into this skeleton must be taken again.
   void set_root_joint_to_weld();
 
+  /// Adds a body without mass to a parent, -1 for the world; returns its index. The joint is of the engine's type; the
+  /// axes are rows, as many as the type has. Every handle into this skeleton must be taken again.
+  int add_body(long parent, const std::string& name, const std::string& joint_type, const std::string& joint_name, const MatrixIn& axes);
+
 private:
   dart::dynamics::Skeleton& skeleton() const { return *skeleton_; }
   dart::dynamics::Skeleton& with_mass() const;
+  void check_root_can_change(const char* what) const;
   void check_tree_can_change(const char* what) const;
   void tree_changed(RootChange change);
+  void check_new_name(const std::string& name, bool taken, const char* what) const;
 
   /// Writes the numbers at the given places, or one number of each dof.
   void gather(const std::vector<const double*>& places, Output& out) const;

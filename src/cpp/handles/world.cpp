@@ -31,9 +31,11 @@ dart::simulation::WorldPtr make_world(double time_step)
 void record(WorldRecord& world)
 {
   const auto& frame
-      = world.recording.add(static_cast<std::size_t>(num_states(world)), num_contacts(world), world.layout());
+      = world.recording.add(static_cast<std::size_t>(num_states(world)), num_contacts(world), world.layout);
   write_states(world, frame.state);
   write_contacts(world, frame.contacts());
+  for (const auto& skeleton : world.skeletons)
+    skeleton->recorded = true;
 }
 
 void reset_skeleton(dart::dynamics::Skeleton& skeleton)
@@ -116,6 +118,15 @@ int WorldHandle::add_skeleton(const ModelSource& source)
   return static_cast<int>(record_->skeletons.size()) - 1;
 }
 
+int WorldHandle::add_empty_skeleton(const std::string& name)
+{
+  auto& record = world();
+  if (name.empty())
+    throw Error(Kind::value, "a skeleton needs a name");
+  record.add(dart::dynamics::Skeleton::create(name), {});
+  return static_cast<int>(record.skeletons.size()) - 1;
+}
+
 void WorldHandle::remove_skeleton(long index)
 {
   auto& record = world();
@@ -139,7 +150,8 @@ void WorldHandle::remove_skeleton(long index)
   const auto lock = lock_ode();
   solver.clearLastCollisionResult(); // it points to collision objects that go
   record.world->removeSkeleton(skeleton);
-  record.removals += ++record.skeletons[i]->structure; // parts of a skeleton without a world are refused
+  ++record.skeletons[i]->structure; // parts of a skeleton without a world are refused
+  ++record.layout;
   record.skeletons.erase(record.skeletons.begin() + static_cast<long>(i));
 }
 
@@ -354,7 +366,7 @@ bool WorldHandle::set_frame(long index)
 {
   auto& record = world();
   const Frame* frame = record.recording.find(index);
-  if (frame == nullptr || frame->layout != record.layout())
+  if (frame == nullptr || frame->layout != record.layout)
     return false;
   // A skeleton that was added after this frame keeps its state.
   std::vector<double> states(static_cast<std::size_t>(num_states(record)));

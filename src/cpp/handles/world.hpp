@@ -37,6 +37,9 @@ public:
 
   /// Adds the skeleton of a model source; returns its index.
   int add_skeleton(const ModelSource& source);
+
+  /// Adds a skeleton without bodies, to be built; returns its index. Another name is given if this one is taken.
+  int add_empty_skeleton(const std::string& name);
   void remove_skeleton(long index);
 
   double time() const;

@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "base/messages.hpp"
+#include "loading/built.hpp"
 
 namespace pydart2 {
 
@@ -177,6 +178,8 @@ WorldPtr load_world(const ModelSource& source)
 
 SkeletonPtr load_skeleton(const ModelSource& source)
 {
+  if (source.kind() == "built")
+    return built::skeleton_of(source.texts().at(""));
   auto skeleton = parse([&] { return parse_skeleton(source); });
   check_skeleton(*skeleton, source.lenient());
   return skeleton;

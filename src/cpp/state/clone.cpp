@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "collision/detector.hpp"
+#include "loading/built.hpp"
 #include "loading/loading.hpp"
 #include "loading/root_joint.hpp"
 #include "state/manager.hpp"
@@ -29,6 +30,15 @@ WorldPtr world_from(const std::string& source)
   return load_world(unpacked(source));
 }
 
+std::string source_of(const SkeletonRecord& record)
+{
+  if (!record.built)
+    return record.source;
+  ModelSource source("built", "");
+  source.add_text("", built::structure_of(*record.skeleton));
+  return source.packed();
+}
+
 /// The plan: the world's source, its detector, and for each skeleton its source, its index in the world that it came
 /// with, its root changes.
 constexpr std::size_t texts_of_world = 2, texts_per_skeleton = 3;
@@ -40,7 +50,7 @@ std::vector<std::string> plan_of(const WorldRecord& world)
     std::string changes;
     for (const auto change : item->root_changes)
       changes += change == RootChange::weld ? 'w' : 'e';
-    plan.insert(plan.end(), {item->source, std::to_string(item->index_in_source), changes});
+    plan.insert(plan.end(), {source_of(*item), std::to_string(item->index_in_source), changes});
   }
   return plan;
 }
@@ -59,6 +69,42 @@ void remove_others(WorldRecord& world, const std::vector<std::string>& plan)
   }
 }
 
+/// Whether one that came with the world comes after one that did not, as a skeleton does that was changed.
+bool has_own_after_others(const std::vector<std::string>& plan)
+{
+  bool others = false;
+  for (std::size_t i = texts_of_world; i < plan.size(); i += texts_per_skeleton) {
+    if (others && plan[i].empty())
+      return true;
+    others |= !plan[i].empty();
+  }
+  return false;
+}
+
+std::vector<SkeletonRef> take_out(WorldRecord& world)
+{
+  const auto lock = lock_ode();
+  auto skeletons = std::move(world.skeletons);
+  world.skeletons.clear();
+  for (const auto& item : skeletons)
+    world.world->removeSkeleton(item->skeleton);
+  world.shapes_changed = true;
+  return skeletons;
+}
+
+void add_again(WorldRecord& world, const SkeletonRef& record)
+{
+  const auto lock = lock_ode();
+  world.world->addSkeleton(record->skeleton);
+  world.skeletons.push_back(record);
+}
+
+void add_to(WorldRecord& world, const std::string& source)
+{
+  const auto model = unpacked(source);
+  world.add(load_skeleton(model), model.kind() == "built" ? std::string() : source);
+}
+
 void change_root(SkeletonRecord& record, char change)
 {
   const bool weld = change == 'w';
@@ -72,10 +118,15 @@ void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
   auto& solver = *world.world->getConstraintSolver();
   if (plan[1] != solver.getCollisionDetector()->getType())
     use_detector(solver, make_detector(plan[1])); // before there is anything that another one makes trees of
+  auto own = has_own_after_others(plan) ? take_out(world) : std::vector<SkeletonRef>();
   std::size_t index = 0;
   for (std::size_t i = texts_of_world; i < plan.size(); i += texts_per_skeleton, ++index) {
     if (!plan[i].empty())
-      world.add(load_skeleton(unpacked(plan[i])), plan[i]);
+      add_to(world, plan[i]);
+    else if (!own.empty()) {
+      add_again(world, own.front());
+      own.erase(own.begin());
+    }
     if (index >= world.skeletons.size())
       Archive::refuse();
     for (const char change : plan[i + 2])
@@ -84,6 +135,15 @@ void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
 }
 
 } // namespace
+
+void mark_built(WorldRecord& world, SkeletonRecord& record)
+{
+  if (!record.built)
+    built::structure_of(*record.skeleton);
+  world.shapes_changed = true;
+  record.built = true;
+  record.root_changes.clear();
+}
 
 Blueprint blueprint_of(WorldRecord& world)
 {

@@ -6,6 +6,7 @@
 #include <dart/dynamics/SoftBodyNode.hpp>
 #include <cstring>
 #include <sstream>
+#include <utility>
 
 #include "base/checks.hpp"
 #include "base/errors.hpp"
@@ -167,6 +168,8 @@ void check_range(const WorldRecord& record, bool ode, double time)
 void solve_constraints(WorldRecord& record, double time)
 {
   auto& solver = *record.world->getConstraintSolver();
+  if (std::exchange(record.shapes_changed, false))
+    use_detector(solver, solver.getCollisionDetector());
   const bool ode = solver.getCollisionDetector()->getType() == "ode";
   check_range(record, ode, time);
   const auto lock = ode ? lock_ode() : std::unique_lock<std::recursive_mutex>();

@@ -2,7 +2,6 @@
 
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
-#include <numeric>
 
 #include "base/errors.hpp"
 #include "collision/detector.hpp"
@@ -25,7 +24,7 @@ WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string s
   replace_detector(*this->world->getConstraintSolver());
   install_solver(*this->world, default_solver());
   for (std::size_t i = 0; i < this->world->getNumSkeletons(); ++i)
-    skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i), {}, static_cast<int>(i)}));
+    skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i), {}, false, false, static_cast<int>(i)}));
 }
 
 void WorldRecord::clear()
@@ -41,15 +40,28 @@ void WorldRecord::clear()
 void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::string& source)
 {
   const auto lock = lock_ode();
+  skeleton->setName(free_name(skeleton->getName()));
   world->addSkeleton(skeleton);
-  skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton, source}));
+  skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton, source, false, source.empty()}));
 }
 
-int WorldRecord::layout() const
+std::string WorldRecord::free_name(const std::string& name)
 {
-  return std::accumulate(skeletons.begin(), skeletons.end(), removals, [](int sum, const SkeletonRef& skeleton) {
-    return sum + skeleton->structure;
-  });
+  if (!world->hasSkeleton(name))
+    return name;
+  std::string numbered;
+  int& number = last_numbers_[name]; // the engine counts from 1 for each
+  do
+    numbered = name + " (" + std::to_string(++number) + ")";
+  while (world->hasSkeleton(numbered));
+  return numbered;
+}
+
+void WorldRecord::tree_changed(SkeletonRecord& skeleton)
+{
+  ++skeleton.structure;
+  if (skeleton.recorded)
+    ++layout;
 }
 
 int WorldRecord::index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <dart/dynamics/Skeleton.hpp>
 #include <dart/simulation/World.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ struct SkeletonRecord
   dart::dynamics::SkeletonPtr skeleton;
 
   std::string source = {};    ///< ModelSource::packed() of what it was loaded from; empty if it came with the world.
+  bool recorded = false;      ///< Whether a frame of the recording has its states.
+  bool built = false;         ///< In code, or changed since it was loaded: what it is made again from is itself.
   int index_in_source = -1;   ///< Where it was in the world that it came with.
   std::vector<RootChange> root_changes = {};
 
@@ -61,14 +64,17 @@ struct WorldRecord
       refuse(seen);
   }
 
-  /// Changes when skeletons are removed or get another tree, so that the states of an earlier frame no longer fit.
-  int layout() const;
+  /// To be called when a tree has changed: handles to its parts and what was recorded no longer fit.
+  void tree_changed(SkeletonRecord& skeleton);
 
   /// Throws what a state other than ready means.
   [[noreturn]] void refuse(State seen) const;
 
-  /// Adds a skeleton that was loaded from `source`.
+  /// Adds a skeleton that was loaded from `source`, or built if that is empty.
   void add(const dart::dynamics::SkeletonPtr& skeleton, const std::string& source);
+
+  /// `name`, or if a skeleton has it the first of "name (1)", "name (2)" ... that none has.
+  std::string free_name(const std::string& name);
 
   /// Index of a skeleton in this world, -1 if it is not in it.
   int index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const;
@@ -81,9 +87,12 @@ struct WorldRecord
   std::vector<std::pair<dart::dynamics::BodyNode*, dart::dynamics::BodyNode*>> ignored_pairs;
   std::atomic<State> state{State::ready};
   long frame = 0; ///< Steps since the last reset.
-  int removals = 0; ///< Skeletons that were removed, and the changes of their trees.
+  int layout = 0; ///< Changes when skeletons are removed or get another tree, so that an earlier frame no longer fits.
+  bool shapes_changed = false; ///< Since the detector got them, which then has them in another order than a clone's.
   Recording recording;
 
+private:
+  std::map<std::string, int> last_numbers_; ///< Of the names that free_name() has numbered.
 };
 using WorldRef = std::shared_ptr<WorldRecord>;
 

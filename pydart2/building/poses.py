@@ -1,0 +1,49 @@
+"""Positions and orientations as 4x4 transforms."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+def pose(position: ArrayLike, orientation: ArrayLike | None = None) -> NDArray[np.float64]:
+    """The transform of a position, shape (3,), m, and an orientation: a quaternion [w, x, y, z], or a (3, 3) matrix.
+
+    Raises ValueError for other shapes, and for a quaternion of length 0.
+    """
+    transform = np.eye(4)
+    place = np.asarray(position, dtype=float)
+    if place.shape != (3,):
+        raise ValueError(f"a position has the shape (3,), got {place.shape}")
+    transform[:3, 3] = place
+    if orientation is not None:
+        transform[:3, :3] = rotation(orientation)
+    return transform
+
+
+def rotation(orientation: ArrayLike) -> NDArray[np.float64]:
+    """The matrix of a quaternion [w, x, y, z] of any length, or of a (3, 3) matrix."""
+    turn = np.asarray(orientation, dtype=float)
+    if turn.shape == (3, 3):
+        return turn
+    if turn.shape != (4,):
+        raise ValueError(f"an orientation is a quaternion [w, x, y, z] or a (3, 3) matrix, got the shape {turn.shape}")
+    length = float(np.linalg.norm(turn))
+    if not length > 0.0:
+        raise ValueError(f"a quaternion must not be of length 0 nor NaN, got {turn}")
+    w, x, y, z = turn / length
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def between(z_axis: ArrayLike) -> NDArray[np.float64]:
+    """A rotation, shape (3, 3), that takes z to a direction of any length, shape (3,), 1."""
+    z = np.asarray(z_axis, dtype=float) / np.linalg.norm(z_axis)
+    x = np.cross([0.0, 1.0, 0.0] if abs(z[1]) < 0.9 else [0.0, 0.0, 1.0], z)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(z, x), z])

@@ -1,0 +1,180 @@
+"""What can be added to a skeleton: bodies, each with the joint that it hangs from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pydart2.building.poses import pose
+
+if TYPE_CHECKING:
+    from pydart2._native import SkeletonHandle
+    from pydart2.bodynode import BodyNode
+    from pydart2.joint import Joint
+
+_JOINTS = {
+    "ball": "BallJoint",
+    "euler": "EulerJoint",
+    "free": "FreeJoint",
+    "planar": "PlanarJoint",
+    "prismatic": "PrismaticJoint",
+    "revolute": "RevoluteJoint",
+    "screw": "ScrewJoint",
+    "translational": "TranslationalJoint",
+    "translational2d": "TranslationalJoint2D",
+    "universal": "UniversalJoint",
+    "weld": "WeldJoint",
+}
+_AXES = {
+    "planar": [[1, 0, 0], [0, 1, 0]],
+    "translational2d": [[1, 0, 0], [0, 1, 0]],
+    "universal": [[1, 0, 0], [0, 1, 0]],
+}
+_ONE_AXIS = ("prismatic", "revolute", "screw")
+
+
+class SkeletonBuilding:
+    """The part of Skeleton that adds to it."""
+
+    _handle: SkeletonHandle
+    bodynodes: list[BodyNode]
+
+    if TYPE_CHECKING:  # what Skeleton has
+
+        def build(self) -> None: ...
+        def body(self, query: str | int) -> BodyNode: ...
+
+    def add_body(
+        self,
+        name: str,
+        parent: BodyNode | str | int | None = None,
+        joint: str | None = None,
+        *,
+        joint_name: str | None = None,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        orientation: ArrayLike | None = None,
+        joint_position: ArrayLike = (0.0, 0.0, 0.0),
+        joint_orientation: ArrayLike | None = None,
+        axis: ArrayLike | None = None,
+        pitch: float = 0.0,
+        order: str = "XYZ",
+        limits: ArrayLike | None = None,
+        damping: ArrayLike | None = None,
+        stiffness: ArrayLike | None = None,
+        rest: ArrayLike | None = None,
+        friction: ArrayLike | None = None,
+        mass: float = 0.0,
+        com: ArrayLike = (0.0, 0.0, 0.0),
+        inertia: ArrayLike | None = None,
+    ) -> BodyNode:
+        """Add a body, and the joint to its parent.
+
+        Other parts of the skeleton stay valid, and get new indices.
+
+        Parameters
+        ----------
+        parent
+            A body, its name or index; None for the world.
+        joint
+            ``"free"`` (default without a parent), ``"weld"`` (default with one), ``"revolute"``, ``"prismatic"``,
+            ``"screw"``, ``"ball"``, ``"euler"``, ``"universal"``, ``"planar"``, ``"translational"`` or
+            ``"translational2d"``.
+        joint_name
+            By default the body's name and ``_joint``.
+        position, orientation
+            Pose of the body in its parent at q = 0, or in the world; of a free body it is q itself. Shape (3,), m, and
+            a quaternion [w, x, y, z] or a (3, 3) matrix.
+        joint_position, joint_orientation
+            Pose of the joint in the body.
+        axis
+            In the joint's frame: shape (3,), by default z; two of them, shape (2, 3), for universal (x and y) and
+            planar joints (the directions of translation, x and y).
+        pitch
+            Of a screw, m per turn.
+        order
+            Of a euler joint, ``"XYZ"`` or ``"ZYX"``.
+        limits
+            Lower and upper of the positions, a pair or a pair for each dof, rad or m; they are enforced.
+        damping, stiffness, rest, friction
+            One for all dofs or one for each: N m s/rad or N s/m; N m/rad or N/m; the position without spring force,
+            rad or m; Coulomb friction, N m or N.
+        mass, com, inertia
+            Mass, kg, centre of mass in the body, shape (3,), m, and moment of inertia about it, shape (3, 3), kg m²;
+            shapes that are added add theirs.
+
+        Raises
+        ------
+        ValueError
+            If the name is taken or an argument does not fit the joint.
+        """
+        above = -1 if parent is None else self._parent_index(parent)
+        kind = joint or ("free" if above < 0 else "weld")
+        _check_limits(name, limits)
+        index = self._handle.add_body(
+            above, name, _engine_name(kind), joint_name or f"{name}_joint", _axes_of(kind, axis)
+        )
+        self.build()
+        body = self.bodynodes[index]
+        in_body = pose(joint_position, joint_orientation)
+        body.parent_joint._handle.set_transform_from_child_body_node(in_body)
+        body.parent_joint._handle.place(pose(position, orientation))
+        if kind == "screw":
+            body.parent_joint._handle.set_pitch(pitch)
+        if kind == "euler":
+            body.parent_joint._handle.set_axis_order(order)
+        _set_dofs(body.parent_joint, limits, damping=damping, stiffness=stiffness, rest=rest, friction=friction)
+        if mass or inertia is not None:
+            body.add_mass(mass, com, inertia)
+        return body
+
+    def _parent_index(self, parent: BodyNode | str | int) -> int:
+        body = self.body(parent) if isinstance(parent, (str, int, np.integer)) else parent
+        if body.skeleton is not self:
+            raise ValueError(f"the parent {body!r} is of another skeleton")
+        return int(body.id)
+
+
+def _engine_name(kind: str) -> str:
+    if kind not in _JOINTS:
+        raise ValueError(f"no joint {kind!r}; there are {', '.join(_JOINTS)}")
+    return _JOINTS[kind]
+
+
+def _axes_of(kind: str, axis: ArrayLike | None) -> ArrayLike:
+    if axis is None:
+        return np.array([[0.0, 0.0, 1.0]]) if kind in _ONE_AXIS else np.array(_AXES.get(kind, np.zeros((0, 3))), float)
+    axes = np.array(axis, dtype=float, ndmin=2)
+    if axes.shape[1:] != (3,):
+        raise ValueError(f"an axis has the shape (3,), two have (2, 3), got {np.shape(axis)}")
+    return axes
+
+
+def _check_limits(name: str, limits: ArrayLike | None) -> None:
+    pairs = np.array(() if limits is None else limits, dtype=float)
+    if limits is not None and (pairs.shape[-1:] != (2,) or pairs.ndim > 2):
+        raise ValueError(f"limits are a pair, or a pair for each dof, got the shape {pairs.shape}")
+    if (pairs[..., :1] > pairs[..., 1:]).any():
+        raise ValueError(f"a lower limit of the joint of {name!r} is above the upper: {pairs}")
+
+
+def _set_dofs(joint: Joint, limits: ArrayLike | None, **values: ArrayLike | None) -> None:
+    """Sets what is given, for each dof of a joint."""
+    n = len(joint.dofs)
+    if limits is not None:
+        lower, upper = np.broadcast_to(np.asarray(limits, dtype=float), (n, 2)).T
+        for dof, low, high in zip(joint.dofs, lower, upper):
+            dof.set_position_lower_limit(low)
+            dof.set_position_upper_limit(high)
+        joint.set_position_limit_enforced(True)
+    setters = {
+        "damping": "set_damping_coefficient",
+        "stiffness": "set_spring_stiffness",
+        "rest": "set_rest_position",
+        "friction": "set_coulomb_friction",
+    }
+    for name, value in values.items():
+        if value is not None:
+            for dof, number in zip(joint.dofs, np.broadcast_to(np.asarray(value, dtype=float), (n,))):
+                getattr(dof._handle, setters[name])(float(number))

@@ -1,0 +1,194 @@
+"""What can be added to a world: the ground, single bodies, empty skeletons to be built."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypedDict, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pydart2.building import solids
+from pydart2.building.bodies import DENSITY, ShapeOptions, attach
+from pydart2.building.poses import between, pose
+
+if TYPE_CHECKING:
+    from pydart2._native import WorldHandle
+    from pydart2.skeleton import Skeleton
+
+_NO_AXES = np.zeros((0, 3))
+
+
+class BodyOptions(TypedDict, total=False):
+    """What all single bodies have.
+
+    Attributes
+    ----------
+    orientation
+        A quaternion [w, x, y, z] or a (3, 3) matrix.
+    density
+        kg/m³, where no mass is given; by default 1000.
+    name
+        Of the skeleton and the body; a number is added if it is taken.
+    color
+        RGB or RGBA, 0 to 1.
+    friction, restitution
+        Coefficients of contacts; by default the engine's, 1 and 0.
+    fixed
+        Whether it is welded to the world.
+    """
+
+    orientation: ArrayLike
+    density: float
+    name: str
+    color: ArrayLike
+    friction: float
+    restitution: float
+    fixed: bool
+
+
+class WorldBuilding:
+    """The part of World that adds to it without files."""
+
+    _handle: WorldHandle
+
+    if TYPE_CHECKING:  # what World has
+
+        def add_skeleton_from_id(self, _skel_id: int) -> Skeleton: ...
+
+    def add_empty_skeleton(self, name: str = "skeleton") -> Skeleton:
+        """Add a skeleton without bodies, for `Skeleton.add_body`. If the name is taken, a number is added to it."""
+        return self.add_skeleton_from_id(self._handle.add_empty_skeleton(name))
+
+    def add_ground(
+        self,
+        height: float = 0.0,
+        size: ArrayLike = (100.0, 100.0),
+        *,
+        name: str = "ground",
+        color: ArrayLike = (0.7, 0.7, 0.7),
+        friction: float = 1.0,
+        restitution: float = 0.0,
+    ) -> Skeleton:
+        """Add a level floor, a box 1 m thick that is welded to the world.
+
+        Parameters
+        ----------
+        height
+            Of the floor against gravity, from the origin, m.
+        size
+            Its two edges, shape (2,), m.
+
+        Up is opposite to gravity, as it is now; without gravity it is y.
+        """
+        up = _up(self)
+        edges = np.asarray(size, dtype=float)
+        if edges.shape != (2,):
+            raise ValueError(f"a ground has two edges, got {size!r}")
+        box = solids.box([edges[0], edges[1], 1.0])
+        options: BodyOptions = {"orientation": between(up), "friction": friction, "restitution": restitution}
+        return self._add_single(box, 0.0, (height - 0.5) * up, {**options, "name": name, "color": color, "fixed": True})
+
+    def add_box(
+        self,
+        size: ArrayLike,
+        mass: float | None = None,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        **options: Unpack[BodyOptions],
+    ) -> Skeleton:
+        """Add a box that is free to move.
+
+        Parameters
+        ----------
+        size
+            Edges, shape (3,), m.
+        mass
+            kg; by default by its density.
+        position
+            Of its centre, shape (3,), m; there it is after a reset, too.
+        **options
+            See `BodyOptions`.
+        """
+        return self._add_single(solids.box(size), mass, position, {"name": "box", **options})
+
+    def add_sphere(
+        self,
+        radius: float,
+        mass: float | None = None,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        **options: Unpack[BodyOptions],
+    ) -> Skeleton:
+        """Add a sphere that is free to move, at a position of shape (3,), m; as add_box()."""
+        return self._add_single(solids.sphere(radius), mass, position, {"name": "sphere", **options})
+
+    def add_capsule(
+        self,
+        radius: float,
+        length: float,
+        mass: float | None = None,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        **options: Unpack[BodyOptions],
+    ) -> Skeleton:
+        """Add a free capsule along its z, `length` without round ends, at a position of shape (3,), m; as add_box()."""
+        return self._add_single(solids.capsule(radius, length), mass, position, {"name": "capsule", **options})
+
+    def add_cylinder(
+        self,
+        radius: float,
+        height: float,
+        mass: float | None = None,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        **options: Unpack[BodyOptions],
+    ) -> Skeleton:
+        """Add a cylinder along its z that is free to move, at a position of shape (3,), m; as add_box()."""
+        return self._add_single(solids.cylinder(radius, height), mass, position, {"name": "cylinder", **options})
+
+    def add_mesh(
+        self,
+        vertices: ArrayLike,
+        triangles: ArrayLike,
+        mass: float | None = None,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        **options: Unpack[BodyOptions],
+    ) -> Skeleton:
+        """Add a body with a surface of corners, shape (n, 3), m, and triangles of their indices, shape (m, 3).
+
+        Triangles are counter-clockwise from outside; the position is that of the corners' origin. Else as add_box().
+        """
+        return self._add_single(solids.mesh(vertices, triangles), mass, position, {"name": "mesh", **options})
+
+    def _add_single(
+        self, solid: solids.Solid, mass: float | None, position: ArrayLike, options: BodyOptions
+    ) -> Skeleton:
+        if mass is not None and not mass >= 0.0:
+            raise ValueError(f"a mass must be positive, got {mass}")
+        fixed = options.get("fixed", False)
+        if not fixed and (mass == 0.0 or (mass is None and solid.volume == 0.0)):
+            raise ValueError("what moves needs a mass")
+        where = pose(position, options.get("orientation"))
+        index = self._handle.add_empty_skeleton(options.get("name", "body"))
+        try:
+            self._fill(index, solid, mass, where, options)
+        except BaseException:
+            self._handle.remove_skeleton(index)
+            raise
+        return self.add_skeleton_from_id(index)
+
+    def _fill(
+        self, index: int, solid: solids.Solid, mass: float | None, where: NDArray[np.float64], options: BodyOptions
+    ) -> None:
+        name = options.get("name", "body")
+        joint = "WeldJoint" if options.get("fixed", False) else "FreeJoint"
+        self._handle.skeleton(index).add_body(-1, name, joint, f"{name}_joint", _NO_AXES)
+        skeleton = self._handle.skeleton(index)  # the one before is of a skeleton without a body
+        skeleton.joint(0).place(where)
+        shape: ShapeOptions = {"mass": mass, "name": name, "density": options.get("density", DENSITY)}
+        for key in ("color", "friction", "restitution"):
+            if key in options:
+                shape[key] = options[key]
+        attach(skeleton.bodynode(0), solid, shape)
+
+
+def _up(world: WorldBuilding) -> NDArray[np.float64]:
+    gravity = world._handle.gravity()
+    strength = float(np.linalg.norm(gravity))
+    return -gravity / strength if strength > 0.0 else np.array([0.0, 1.0, 0.0])
