@@ -1,0 +1,100 @@
+"""Which bodies of a compiled model collide: MuJoCo's filter as ours, and its equality constraints."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+
+from pydart2._native import BodyNodeHandle, WorldHandle
+from pydart2.mjcf.compile import Compiled
+from pydart2.mjcf.trees import Built
+
+_CONNECT, _JOINT = 0, 2  # mjtEq
+
+
+def set_filter(model: Compiled, world: WorldHandle, built: Built, mixed: set[str]) -> None:
+    """Let those bodies pass through each other that MuJoCo lets; notes in `mixed` where geoms of a pair differ."""
+    excluded = {(int(s) >> 16, int(s) & 0xFFFF) for s in model.exclude_signature}
+    masks = {body: _masks(model, body) for body in built.places}
+    by_node: dict[tuple[int, int], list[int]] = {}
+    for body, node in built.places.items():
+        if len(masks[body]):
+            by_node.setdefault(node, []).append(body)
+    never, within = [], set()
+    for (a, bodies_a), (b, bodies_b) in combinations(by_node.items(), 2):
+        pairs = [(i, j) for i in bodies_a for j in bodies_b]
+        open_pairs = [p for p in pairs if not _filtered(model, *p, excluded)]
+        hits = [hit for i, j in open_pairs for hit in _hits(masks[i], masks[j])]
+        if any(hits) and (not all(hits) or len(open_pairs) < len(pairs)):
+            mixed.add("contype and conaffinity that differ among the geoms of a body")
+        if any(hits) and a[0] == b[0]:
+            within.add(a[0])
+        if not any(hits):
+            never.append((a, b))
+    for skeleton in within:
+        world.skeleton(skeleton).set_self_collision_check(True)
+        world.skeleton(skeleton).set_adjacent_body_check(True)
+    for a, b in never:
+        if a[0] != b[0] or a[0] in within:
+            world.ignore_pair(_body(world, a), _body(world, b), True)
+
+
+def _body(world: WorldHandle, node: tuple[int, int]) -> BodyNodeHandle:
+    return world.skeleton(node[0]).bodynode(node[1])
+
+
+def _masks(model: Compiled, body: int) -> list[tuple[int, int]]:
+    first = int(model.body_geomadr[body])
+    geoms = range(first, first + int(model.body_geomnum[body]))
+    masks = {(int(model.geom_contype[geom]), int(model.geom_conaffinity[geom])) for geom in geoms}
+    return sorted(masks - {(0, 0)})
+
+
+def _hits(a: list[tuple[int, int]], b: list[tuple[int, int]]) -> list[bool]:
+    return [bool(i[0] & j[1] or j[0] & i[1]) for i in a for j in b]
+
+
+def _filtered(model: Compiled, a: int, b: int, excluded: set[tuple[int, int]]) -> bool:
+    """Whether MuJoCo never tests the two: excluded, of one welded piece, or one welded to the other's parent."""
+    if (a, b) in excluded or (b, a) in excluded:
+        return True
+    weld = model.body_weldid
+    if weld[a] == weld[b]:
+        return True
+    above = [int(weld[model.body_parentid[weld[body]]]) for body in (a, b)]
+    return bool((above[1] == weld[a] and weld[a] != 0) or (above[0] == weld[b] and weld[b] != 0))
+
+
+def add_equalities(model: Compiled, world: WorldHandle, built: Built, unknown: set[str]) -> None:
+    """Add what constrains two bodies or joints and has a counterpart; notes the rest in `unknown`."""
+    for i in map(int, np.flatnonzero(model.eq_active0)):
+        kind = int(model.eq_type[i])
+        first, second = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
+        if kind == _CONNECT and {first, second} <= set(built.places) and int(model.eq_objtype[i]) == 1:
+            a, b = (_body(world, built.places[body]) for body in (first, second))
+            world.add_ball_joint_constraint(a, b, a.to_world(np.array(model.eq_data[i][:3])))
+        elif kind == _JOINT and second >= 0 and not np.any(model.eq_data[i][2:5]):
+            _mimic(model, world, built, i, unknown)
+        else:
+            unknown.add("equality constraints but connect between bodies, and joint with a linear polynomial")
+
+
+def _mimic(model: Compiled, world: WorldHandle, built: Built, i: int, unknown: set[str]) -> None:
+    first, second = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
+    offset, factor = (float(number) for number in model.eq_data[i][:2])
+    start = [float(model.qpos0[model.jnt_qposadr[joint]]) for joint in (first, second)]
+    places = []
+    for joint in (first, second):
+        skeleton = built.places[int(model.jnt_bodyid[joint])][0]
+        coordinates = built.coordinates[skeleton]
+        dof = next(p.dof for p in coordinates.joints if p.qvel == int(model.jnt_dofadr[joint]))
+        places.append((skeleton, dof))
+    if places[0][0] != places[1][0]:
+        unknown.add("equality constraints of joints of two trees")
+        return
+    skel = world.skeleton(places[0][0])
+    joints = {skel.joint(j).dof(0): skel.joint(j) for j in range(skel.num_joints()) if skel.joint(j).num_dofs() == 1}
+    follower, leader = joints[places[0][1]], joints[places[1][1]]
+    follower.set_mimic(leader, factor, start[0] + offset - factor * start[1])
+    follower.set_actuator_type("MIMIC")
