@@ -69,7 +69,7 @@ coverage: setup
 	  --fail-under-line 90 build/coverage/cmake
 	$(VENV)/bin/coverage report --data-file=build/coverage/.coverage --fail-under=95 --format=total
 
-# The models in PyPI's pybullet (100 MB), unpacked without installing it.
+# The models in PyPI's pybullet (100 MB) and dm_control (60 MB), unpacked without installing them.
 test-third-party: setup
 	$(VENV)/bin/python tools/fetch_models.py build/third-party
 	$(VENV)/bin/pip install --quiet pin example-robot-data

@@ -199,6 +199,17 @@ class Dof:
         """Set the viscous damping, N m s/rad or N s/m, >= 0."""
         self._handle.set_damping_coefficient(coefficient)
 
+    def armature(self) -> float:
+        """Inertia of what turns with the joint only, as a motor's rotor, kg m² or kg."""
+        return self._handle.armature()
+
+    def set_armature(self, inertia: float) -> None:
+        """Set the inertia of what turns with the joint only, kg m² or kg, >= 0.
+
+        It is added to the diagonal of M and acts in the motion, but not in the response to contacts and limits.
+        """
+        self._handle.set_armature(inertia)
+
     def coulomb_friction(self) -> float:
         """Coulomb friction, N m or N."""
         return self._handle.coulomb_friction()

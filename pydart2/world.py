@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import logging
 import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -21,8 +22,9 @@ from pydart2.skeleton import Controller, Skeleton
 from pydart2.state import Snapshot, model_hash
 
 if TYPE_CHECKING:
-    from pydart2.loading import Missing, Source
+    from pydart2.loading import Missing, Reader, Source
 
+_log = logging.getLogger("pydart2")
 _DETECTORS = ("dart", "fcl", "bullet", "ode", "native")
 
 
@@ -67,7 +69,7 @@ class World(WorldBuilding):
         with that. Without it the world is empty. The gravity is the file's, or (0, -9.81, 0).
     xmlstr
         Whether `skel_path` is the XML itself, however it begins.
-    packages, missing_meshes, safe
+    packages, missing_meshes, safe, reader
         As in `add_skeleton`.
 
     Attributes
@@ -81,6 +83,8 @@ class World(WorldBuilding):
     collision_filter : CollisionFilter
         Pairs of bodies that pass through each other.
     recording : Recording or None
+    keyframes : dict
+        Of an MJCF file: name → `x`.
 
     Raises
     ------
@@ -106,15 +110,18 @@ class World(WorldBuilding):
         packages: Mapping[str, str | os.PathLike[str]] | None = None,
         missing_meshes: Missing = "error",
         safe: bool | None = None,
+        reader: Reader = "mujoco",
     ) -> None:
         model = skel_path
         if model is not None:
             from pydart2.loading import Options, read_model  # a third of the time to import pydart2
 
-            model = read_model(model, Options(packages, missing_meshes, safe, text=xmlstr))
+            model = read_model(model, Options(packages, missing_meshes, safe, xmlstr, reader))
         if model is not None and model.has_world:
             self._handle = model.load_world()
             self._handle.set_time_step(step)
+            if model.time_step not in (None, step):
+                _log.warning("%s: its time step is %g s, the world's %g s", os.fspath(model), model.time_step, step)
         else:
             self._handle = WorldHandle(step)
             self._handle.set_gravity([0.0, -9.81, 0.0])
@@ -123,6 +130,7 @@ class World(WorldBuilding):
         self._begin()
         for i in range(self._handle.num_skeletons()):
             self.add_skeleton_from_id(i)
+        self.keyframes: dict[str, NDArray[np.float64]] = model.keyframes if model is not None else {}
         self.reset()
         self.enable_recording()
 
@@ -151,6 +159,7 @@ class World(WorldBuilding):
         packages: Mapping[str, str | os.PathLike[str]] | None = None,
         missing_meshes: Missing = "error",
         safe: bool | None = None,
+        reader: Reader = "mujoco",
     ) -> Skeleton:
         """Load a URDF, SDF, SKEL, MJCF or VSK file and add its skeleton.
 
@@ -170,6 +179,9 @@ class World(WorldBuilding):
         safe
             Whether to try the file in a helper process first, so that what crashes the engine's parsers is a
             LoadError and does not end Python. None: unless the file is one of the package's own.
+        reader
+            Who reads MJCF: ``"mujoco"``, its own compiler (``pip install pydart2[mjcf]``), whose numbers the skeletons
+            then have, or ``"engine"``, whose numbers differ.
 
         Raises
         ------
@@ -179,7 +191,7 @@ class World(WorldBuilding):
         self._handle.time()  # a world that is gone says so before the file is read
         from pydart2.loading import Options, read_model
 
-        model = read_model(filename, Options(packages, missing_meshes, safe))
+        model = read_model(filename, Options(packages, missing_meshes, safe, reader=reader))
         skel = (CLASS or self.CLASS_SKELETON)(self, _filename=model)
         self._append(skel)
         return skel

@@ -65,6 +65,7 @@ class SkeletonBuilding:
         stiffness: ArrayLike | None = None,
         rest: ArrayLike | None = None,
         friction: ArrayLike | None = None,
+        armature: ArrayLike | None = None,
         mass: float = 0.0,
         com: ArrayLike = (0.0, 0.0, 0.0),
         inertia: ArrayLike | None = None,
@@ -97,9 +98,9 @@ class SkeletonBuilding:
             Of a euler joint, ``"XYZ"`` or ``"ZYX"``.
         limits
             Lower and upper of the positions, a pair or a pair for each dof, rad or m; they are enforced.
-        damping, stiffness, rest, friction
+        damping, stiffness, rest, friction, armature
             One for all dofs or one for each: N m s/rad or N s/m; N m/rad or N/m; the position without spring force,
-            rad or m; Coulomb friction, N m or N.
+            rad or m; Coulomb friction, N m or N; inertia of the motor, kg m² or kg.
         mass, com, inertia
             Mass, kg, centre of mass in the body, shape (3,), m, and moment of inertia about it, shape (3, 3), kg m²;
             shapes that are added add theirs.
@@ -124,7 +125,8 @@ class SkeletonBuilding:
             body.parent_joint._handle.set_pitch(pitch)
         if kind == "euler":
             body.parent_joint._handle.set_axis_order(order)
-        _set_dofs(body.parent_joint, limits, damping=damping, stiffness=stiffness, rest=rest, friction=friction)
+        numbers = {"damping": damping, "stiffness": stiffness, "rest": rest, "friction": friction, "armature": armature}
+        _set_dofs(body.parent_joint, limits, numbers)
         if mass or inertia is not None:
             body.add_mass(mass, com, inertia)
         return body
@@ -159,7 +161,7 @@ def _check_limits(name: str, limits: ArrayLike | None) -> None:
         raise ValueError(f"a lower limit of the joint of {name!r} is above the upper: {pairs}")
 
 
-def _set_dofs(joint: Joint, limits: ArrayLike | None, **values: ArrayLike | None) -> None:
+def _set_dofs(joint: Joint, limits: ArrayLike | None, values: dict[str, ArrayLike | None]) -> None:
     """Sets what is given, for each dof of a joint."""
     n = len(joint.dofs)
     if limits is not None:
@@ -173,6 +175,7 @@ def _set_dofs(joint: Joint, limits: ArrayLike | None, **values: ArrayLike | None
         "stiffness": "set_spring_stiffness",
         "rest": "set_rest_position",
         "friction": "set_coulomb_friction",
+        "armature": "set_armature",
     }
     for name, value in values.items():
         if value is not None:

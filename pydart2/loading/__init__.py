@@ -20,12 +20,14 @@ from pydart2._native import ModelSource, WorldHandle
 from pydart2.errors import LoadError
 from pydart2.loading import files
 from pydart2.loading.checks import check, relevant, rules_of
+from pydart2.loading.readable import Readable
 from pydart2.loading.rules import URDF, URDF_WORLD, Rules
 from pydart2.loading.trial import try_model
 from pydart2.loading.xml import Document, Element, parse
 from pydart2.resources import data_folder, find_model
 
 Missing = Literal["error", "warn"]
+Reader = Literal["mujoco", "engine"]
 Source = str | bytes | os.PathLike[str]
 
 MAX_INCLUDE_DEPTH = 8
@@ -49,16 +51,20 @@ class Options:
         None: unless it is one of the package's own models.
     text
         Whether the source is a text even if it does not begin with ``<``.
+    reader
+        Who reads MJCF: ``"mujoco"``, its own compiler (``pip install pydart2[mjcf]``), or ``"engine"``, whose numbers
+        differ: it takes degrees for radians, loses masses and joints.
     """
 
     packages: Mapping[str, str | os.PathLike[str]] | None = None
     missing_meshes: Missing = "error"
     safe: bool | None = None
     text: bool = False
+    reader: Reader = "mujoco"
 
 
 @dataclass
-class Model:
+class Model(Readable):
     """A file that was read and checked, ready for the engine. As a path, it is that of its file."""
 
     document: Document
@@ -66,9 +72,6 @@ class Model:
     source: ModelSource
     safe: bool
     files: list[str] = field(default_factory=list)
-
-    def __fspath__(self) -> str:
-        return self.document.path or ""
 
     @property
     def has_world(self) -> bool:
@@ -121,7 +124,7 @@ class Model:
         return self.document.error(next(named, self.document.root), reason)
 
 
-def read_model(what: Source | Model, options: Options | None = None) -> Model:
+def read_model(what: Source | Readable, options: Options | None = None) -> Readable:
     """Read and check a model.
 
     Parameters
@@ -137,9 +140,11 @@ def read_model(what: Source | Model, options: Options | None = None) -> Model:
     LoadError
         With file, line and reason, if it is missing or cannot be read.
     """
-    if isinstance(what, Model):
+    if isinstance(what, Readable):
         return what
     options = options or Options()
+    if options.reader not in ("mujoco", "engine"):
+        raise ValueError(f"reader must be 'mujoco' or 'engine', got {options.reader!r}")
     if options.missing_meshes not in ("error", "warn"):
         raise ValueError(f"missing_meshes must be 'error' or 'warn', got {options.missing_meshes!r}")
     if isinstance(what, bytes):
@@ -149,6 +154,12 @@ def read_model(what: Source | Model, options: Options | None = None) -> Model:
     else:
         path = _path_of(os.fspath(what), options)
         document = parse(files.read_bytes(path), path)
+    if document.root.tag == "mujoco":
+        if options.reader == "mujoco":
+            from pydart2.mjcf import MjcfModel
+
+            return MjcfModel(document, safe=options.safe is not False)
+        _log.warning("%s: read with reader='engine', whose numbers differ from MuJoCo's", document.path or "XML text")
     return _Builder(document, options).build()
 
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import os
+import subprocess
+import sys
 from typing import Any
 
 from pydart2.errors import LoadError
@@ -24,6 +27,36 @@ def mujoco_module() -> Any:
             "or load with reader='engine', whose numbers differ"
         ) from error
     return mujoco
+
+
+_TRIAL = """
+import sys, mujoco
+path, text = sys.argv[1], sys.stdin.buffer.read()
+mujoco.set_mju_user_warning(lambda warning: None)
+try:
+    mujoco.MjModel.from_xml_path(path) if path else mujoco.MjModel.from_xml_string(text.decode("utf-8", "replace"))
+except ValueError:
+    pass
+"""
+_known_to_work: set[bytes] = set()
+
+
+def try_to_compile(path: str | None, text: bytes) -> None:
+    """Compile in a process of its own first; LoadError if that ends it. One that worked is not tried again."""
+    mujoco_module()
+    key = hashlib.sha256(repr(path).encode() + text).digest()
+    if key in _known_to_work:
+        return
+    # close_fds=False lets subprocess use posix_spawn: this process is not forked.
+    command = [sys.executable, "-c", _TRIAL, path or ""]
+    try:
+        done = subprocess.run(command, input=text, capture_output=True, timeout=60, close_fds=False)
+    except subprocess.TimeoutExpired:
+        raise LoadError.at(path, None, "MuJoCo does not finish it in 60 s") from None
+    if done.returncode != 0:
+        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
+        raise LoadError.at(path, None, f"MuJoCo's compiler ends its process: {said[-1] if said else done.returncode}")
+    _known_to_work.add(key)
 
 
 def compile_model(path: str | None, text: bytes) -> Compiled:

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
+from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pydart2._native import WorldHandle
+from pydart2.errors import LoadError
+from pydart2.loading.readable import Readable
 from pydart2.loading.xml import Document
-from pydart2.mjcf.compile import Compiled, compile_model, mujoco_module
+from pydart2.mjcf.compile import Compiled, compile_model, mujoco_module, try_to_compile
 from pydart2.mjcf.contacts import add_equalities, set_filter
+from pydart2.mjcf.geoms import GEOMS
 from pydart2.mjcf.trees import Built, add_static, add_tree, trees_of
 
 _log = logging.getLogger("pydart2")
 
 
-class MjcfModel:
+class MjcfModel(Readable):
     """A compiled model. As a path, it is that of its file.
 
     Attributes
@@ -27,23 +33,58 @@ class MjcfModel:
     """
 
     has_world = True
-    has_skeleton = True
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: Document, safe: bool = False) -> None:
         self.document = document
+        if safe:
+            try_to_compile(document.path, document.data)
         self.compiled: Compiled = compile_model(document.path, document.data)
         self.built: Built | None = None
+        self.time_step = float(self.compiled.opt.timestep)
 
-    def __fspath__(self) -> str:
-        return self.document.path or ""
+    @property
+    def keyframes(self) -> dict[str, NDArray[np.float64]]:
+        """Name → [q, dq] of all skeletons, shape (2 * sum of ndofs,), rad, m, rad/s and m/s."""
+        model, states = self.compiled, {}
+        for key in range(model.nkey if self.built else 0):
+            qpos, qvel = model.key_qpos[key], model.key_qvel[key]
+            parts = [part for c in self.built.coordinates.values() for part in (c.q(qpos), c.dq(qpos, qvel))]  # type: ignore[union-attr]
+            states[str(model.key(key).name) or f"key{key}"] = np.concatenate(parts) if parts else np.zeros(0)
+        return states
 
     def load_world(self) -> WorldHandle:
-        """A new world with all of it, MuJoCo's gravity, and Bullet as its detector, which has planes and capsules."""
+        """A new world with all of it and MuJoCo's gravity.
+
+        FCL, the default detector, has no planes and capsules: the world's is "native", or "bullet" if a mesh collides.
+        """
+        with self._located():
+            return self._load_world()
+
+    def add_to(self, world: WorldHandle) -> int:
+        """Add its one tree to a world, without what cannot move; returns the skeleton's index there."""
+        before = world.num_skeletons()
+        try:
+            with self._located():
+                return self._add_to(world)
+        except LoadError:
+            for index in range(world.num_skeletons() - 1, before - 1, -1):
+                world.remove_skeleton(index)
+            raise
+
+    @contextlib.contextmanager
+    def _located(self) -> Iterator[None]:
+        """What the builder refuses, as an error of the file."""
+        try:
+            yield
+        except (ValueError, IndexError) as error:
+            raise LoadError.at(self.document.path, None, str(error)) from error
+
+    def _load_world(self) -> WorldHandle:
         model = self.compiled
         world = WorldHandle(float(model.opt.timestep))
         off = int(model.opt.disableflags) & int(mujoco_module().mjtDisableBit.mjDSBL_GRAVITY)
         world.set_gravity(np.zeros(3) if off else np.array(model.opt.gravity))
-        world.set_collision_detector("bullet")
+        world.set_collision_detector("bullet" if self._meshes_collide() else "native")
         built = self.built = Built()
         add_static(model, world, built)
         for bodies in trees_of(model).values():
@@ -54,8 +95,7 @@ class MjcfModel:
         self._warn(notes)
         return world
 
-    def add_to(self, world: WorldHandle) -> int:
-        """Add its one tree to a world, without what cannot move; returns the skeleton's index there."""
+    def _add_to(self, world: WorldHandle) -> int:
         trees = list(trees_of(self.compiled).values())
         if len(trees) != 1:
             many = f"it has {len(trees)} trees of bodies; load it with World(step, file)"
@@ -90,7 +130,7 @@ class MjcfModel:
             ),
             "damping and friction of free joints": self._free_joints_resist(),
             "partial gravity compensation": np.any(~np.isin(model.body_gravcomp, (0.0, 1.0))),
-            "armature": np.any(model.dof_armature),
+            "armature in the response to contacts and limits": np.any(model.dof_armature),
         }
         return {what for what, count in present.items() if count}
 
@@ -98,3 +138,8 @@ class MjcfModel:
         model = self.compiled
         free = np.array(model.jnt_type)[np.array(model.dof_jntid)] == 0
         return bool(np.any(np.ravel(model.dof_damping)[: model.nv][free]) or np.any(model.dof_frictionloss[free]))
+
+    def _meshes_collide(self) -> bool:
+        model = self.compiled
+        shaped = np.isin(model.geom_type, [GEOMS.index(kind) for kind in ("hfield", "mesh", "sdf")])
+        return bool(np.any(shaped & ((np.array(model.geom_contype) | np.array(model.geom_conaffinity)) != 0)))

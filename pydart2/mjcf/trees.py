@@ -143,6 +143,7 @@ class _Tree:
         for i in range(1 if one else 3):
             dof, theirs = skeleton.dof(place.dof + i), place.qvel + i
             dof.set_damping_coefficient(max(0.0, float(np.ravel(model.dof_damping)[theirs])))
+            dof.set_armature(float(model.dof_armature[theirs]))
             dof.set_coulomb_friction(float(model.dof_frictionloss[theirs]))
             if not one:
                 continue

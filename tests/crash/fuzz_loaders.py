@@ -56,7 +56,7 @@ def load(data: bytes) -> None:
     fuzz_models.load(data)
     world = pydart2.World(0.001)
     with contextlib.suppress(pydart2.LoadError, pydart2.SimulationError):
-        world.add_skeleton(data)
+        world.add_skeleton(data, reader="engine")
         world.step()
 
 

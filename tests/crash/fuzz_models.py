@@ -159,7 +159,7 @@ def load(data: bytes) -> tuple[float, str]:
     """
     outcome, times = "loaded", [time.monotonic()]
     try:
-        world = pydart2.World(0.001, data, missing_meshes="warn")
+        world = pydart2.World(0.001, data, missing_meshes="warn", reader="engine")
         for _ in range(2):
             times.append(time.monotonic())
             world.step()

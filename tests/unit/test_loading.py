@@ -61,7 +61,7 @@ def triangle(path: Path) -> Path:
 def refusal(what: Any, **options: Any) -> LoadError:
     """The error of loading a skeleton."""
     with pytest.raises(LoadError) as info:
-        World(0.001).add_skeleton(what, **options)
+        World(0.001).add_skeleton(what, reader="engine", **options)
     return info.value
 
 
@@ -71,19 +71,19 @@ def refusal(what: Any, **options: Any) -> LoadError:
 @pytest.mark.parametrize("name", ["model", "model.txt", "model.skel", "model.urdf"])
 @pytest.mark.parametrize("kind", TEXTS)
 def test_the_root_element_says_the_format(world: World, tmp_path: Path, kind: str, name: str) -> None:
-    assert world.add_skeleton(write(tmp_path / name, TEXTS[kind])).m == pytest.approx(MASSES[kind])
+    assert world.add_skeleton(write(tmp_path / name, TEXTS[kind]), reader="engine").m == pytest.approx(MASSES[kind])
 
 
 @pytest.mark.parametrize("kind", TEXTS)
 def test_texts_and_bytes(world: World, kind: str) -> None:
     for text in (TEXTS[kind], "\n  " + TEXTS[kind], TEXTS[kind].encode(), TEXTS[kind].encode("utf-8-sig")):
-        skel = world.add_skeleton(text)
+        skel = world.add_skeleton(text, reader="engine")
         assert skel.m == pytest.approx(MASSES[kind]) and skel.filename is None
 
 
 @pytest.mark.parametrize("kind", TEXTS)
 def test_a_world_of_any_format(kind: str) -> None:
-    assert sum(skel.m for skel in World(0.002, TEXTS[kind]).skeletons) == pytest.approx(MASSES[kind])
+    assert sum(skel.m for skel in World(0.002, TEXTS[kind], reader="engine").skeletons) == pytest.approx(MASSES[kind])
 
 
 def test_a_text_as_the_original_takes_it() -> None:
@@ -363,13 +363,13 @@ def test_mjcf_meshes(world: World, tmp_path: Path, caplog: Any) -> None:
     )
     loud, quiet = text.format(flags=""), text.format(flags=" contype='0' conaffinity='0'")
     assert "the collision mesh 'a.obj'" in str(refusal(write(tmp_path / "m.xml", loud)))
-    assert len(world.add_skeleton(write(tmp_path / "m.xml", quiet)).bodynodes[0].shapenodes) == 1
+    assert len(world.add_skeleton(write(tmp_path / "m.xml", quiet), reader="engine").bodynodes[0].shapenodes) == 1
     assert "the visual mesh 'a.obj'" in caplog.text
     triangle(tmp_path / "a.obj")
-    assert len(world.add_skeleton(write(tmp_path / "m.xml", loud)).bodynodes[0].shapenodes) == 2
+    assert len(world.add_skeleton(write(tmp_path / "m.xml", loud), reader="engine").bodynodes[0].shapenodes) == 2
     triangle(tmp_path / "sub" / "a.obj").rename(tmp_path / "sub" / "b.obj")
     text = loud.replace("<mujoco>", "<mujoco><compiler meshdir='sub'/>").replace("a.obj", "b.obj")
-    assert len(world.add_skeleton(write(tmp_path / "m.xml", text)).bodynodes[0].shapenodes) == 2
+    assert len(world.add_skeleton(write(tmp_path / "m.xml", text), reader="engine").bodynodes[0].shapenodes) == 2
 
 
 def test_mjcf_includes(world: World, tmp_path: Path) -> None:
@@ -377,7 +377,7 @@ def test_mjcf_includes(world: World, tmp_path: Path) -> None:
     path = write(tmp_path / "main.xml", main)
     assert (refusal(path).line, "it includes 'part.xml': there is no file" in str(refusal(path))) == (2, True)
     write(tmp_path / "part.xml", "<mujoco><option gravity='0 0 -3'/></mujoco>")
-    assert world.add_skeleton(path).m == pytest.approx(5)
+    assert world.add_skeleton(path, reader="engine").m == pytest.approx(5)
     write(tmp_path / "part.xml", "<mujoco>\n<option gravity='0 0 x'/></mujoco>")
     assert (refusal(path).path, refusal(path).line) == (str(tmp_path / "part.xml"), 2)
     write(tmp_path / "part.xml", "<mujoco><include file='main.xml'/></mujoco>")

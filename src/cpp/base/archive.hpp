@@ -84,6 +84,9 @@ public:
     return static_cast<std::size_t>(value);
   }
 
+  /// Whether there is more on the way in, as what earlier versions did not save.
+  bool has_more() const { return number_ < numbers.size(); }
+
   /// Throws unless all that was saved has been taken.
   void finish() const
   {

@@ -215,6 +215,24 @@ void DofHandle::set_damping_coefficient(double coefficient)
   dof_->setDampingCoefficient(coefficient);
 }
 
+double DofHandle::armature() const
+{
+  auto* dof = dof_.get();
+  const auto& armature = dof_.skeleton->armature;
+  const auto found = armature.find(dof);
+  return found == armature.end() ? 0.0 : found->second;
+}
+
+void DofHandle::set_armature(double inertia)
+{
+  check::not_negative(inertia, "armature");
+  auto* dof = dof_.get();
+  if (inertia > 0.0)
+    dof_.skeleton->armature[dof] = inertia;
+  else
+    dof_.skeleton->armature.erase(dof);
+}
+
 double DofHandle::coulomb_friction() const
 {
   return dof_->getCoulombFriction();

@@ -56,6 +56,9 @@ public:
   void set_rest_position(double position);
   double damping_coefficient() const;
   void set_damping_coefficient(double coefficient);
+  /// Inertia of what turns with the joint, on the diagonal of the mass matrix.
+  double armature() const;
+  void set_armature(double inertia);
   double coulomb_friction() const;
   void set_coulomb_friction(double friction);
 

@@ -302,13 +302,24 @@ void SkeletonHandle::mass_matrix(Output& into)
   skeleton_.get();
   const Eigen::MatrixXd& M = mass_matrix_.update(tree_);
   // M is symmetric, so its columns are its rows.
-  std::copy(M.data(), M.data() + M.size(), into.matrix(M.rows(), M.cols()));
+  double* to = into.matrix(M.rows(), M.cols());
+  std::copy(M.data(), M.data() + M.size(), to);
+  for (const auto& [dof, inertia] : skeleton_.skeleton->armature)
+    to[static_cast<long>(dof->getIndexInSkeleton()) * (M.cols() + 1)] += inertia;
 }
 
 void SkeletonHandle::inv_mass_matrix(Output& into) const
 {
-  const Eigen::MatrixXd& inverse = skeleton().getInvMassMatrix();
-  matrix(into, inverse.rows(), inverse.cols()) = inverse;
+  const auto& armature = skeleton_.skeleton->armature;
+  if (armature.empty()) {
+    const Eigen::MatrixXd& inverse = skeleton().getInvMassMatrix();
+    matrix(into, inverse.rows(), inverse.cols()) = inverse;
+    return;
+  }
+  Eigen::MatrixXd M = skeleton().getMassMatrix();
+  for (const auto& [dof, inertia] : armature)
+    M.diagonal()[static_cast<long>(dof->getIndexInSkeleton())] += inertia;
+  matrix(into, M.rows(), M.cols()) = M.llt().solve(Eigen::MatrixXd::Identity(M.rows(), M.cols()));
 }
 
 void SkeletonHandle::coriolis_and_gravity_forces(Output& into)
@@ -371,7 +382,10 @@ Vector6d SkeletonHandle::com_spatial_velocity() const
 
 double SkeletonHandle::kinetic_energy() const
 {
-  return skeleton().computeKineticEnergy();
+  double energy = skeleton().computeKineticEnergy();
+  for (const auto& [dof, inertia] : skeleton_.skeleton->armature)
+    energy += inertia * dof->getVelocity() * dof->getVelocity() / 2.0;
+  return energy;
 }
 
 double SkeletonHandle::potential_energy() const
@@ -411,9 +425,17 @@ void SkeletonHandle::check_tree_can_change(const char* what) const
               + "' while a constraint holds it; call world.remove_all_constraints() first");
 }
 
+void SkeletonHandle::forget_root_armature()
+{
+  auto& joint = *skeleton().getRootJoint();
+  for (std::size_t i = 0; i < joint.getNumDofs(); ++i)
+    skeleton_.skeleton->armature.erase(joint.getDof(i));
+}
+
 void SkeletonHandle::set_root_joint_to_trans_and_euler()
 {
   check_root_can_change("set_root_joint_to_trans_and_euler()");
+  forget_root_armature();
   change_root_to_trans_and_euler(skeleton());
   tree_changed(RootChange::trans_and_euler);
 }
@@ -421,6 +443,7 @@ void SkeletonHandle::set_root_joint_to_trans_and_euler()
 void SkeletonHandle::set_root_joint_to_weld()
 {
   check_root_can_change("set_root_joint_to_weld()");
+  forget_root_armature();
   change_root_to_weld(skeleton());
   tree_changed(RootChange::weld);
 }

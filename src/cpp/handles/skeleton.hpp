@@ -107,6 +107,7 @@ public:
 private:
   dart::dynamics::Skeleton& skeleton() const { return *skeleton_; }
   dart::dynamics::Skeleton& with_mass() const;
+  void forget_root_armature(); ///< The joint goes.
   void check_root_can_change(const char* what) const;
   void check_tree_can_change(const char* what) const;
   void tree_changed(RootChange change);

@@ -125,6 +125,27 @@ void visit_constraints(Archive& archive, WorldRecord& world)
   }
 }
 
+/// Comes last, and only if there is any: earlier versions saved none.
+void visit_armature(Archive& archive, WorldRecord& world)
+{
+  bool any = false;
+  for (const auto& item : world.skeletons)
+    any |= !item->armature.empty();
+  if (archive.is_in() ? !archive.has_more() : !any)
+    return;
+  for (const auto& item : world.skeletons)
+    for (auto* dof : item->skeleton->getDofs()) {
+      const auto found = item->armature.find(dof);
+      archive.number(
+          [&] { return found == item->armature.end() ? 0.0 : found->second; },
+          [&](double inertia) {
+            if (!(inertia > 0.0))
+              Archive::refuse();
+            item->armature[dof] = inertia;
+          });
+    }
+}
+
 } // namespace
 
 void visit_model(Archive& archive, WorldRecord& record)
@@ -145,6 +166,7 @@ void visit_model(Archive& archive, WorldRecord& record)
   archive.number([&] { return double(solver.warm_start()); }, [&](double on) { solver.set_warm_start(on != 0.0); });
   visit_ignored_pairs(archive, record);
   visit_constraints(archive, record);
+  visit_armature(archive, record);
 }
 
 } // namespace pydart2

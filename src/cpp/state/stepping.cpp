@@ -202,7 +202,10 @@ void phases(WorldRecord& record)
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
       continue;
-    skeleton.computeForwardDynamics();
+    {
+      const WithArmature with_armature(item->armature, dt);
+      skeleton.computeForwardDynamics();
+    }
     skeleton.integrateVelocities(dt);
     item->watch->check_velocities(end);
   }

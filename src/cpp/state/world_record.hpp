@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/armature.hpp"
 #include "state/constraint_record.hpp"
 #include "state/dof_state.hpp"
 #include "state/recording.hpp"
@@ -35,6 +36,8 @@ struct SkeletonRecord
   int structure = 0;
 
   std::shared_ptr<StateWatch> watch = nullptr;
+
+  Armature armature = {};
 
   /// Where the engine keeps the state, found again when the tree has changed.
   const DofState& dofs();
