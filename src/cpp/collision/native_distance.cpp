@@ -172,7 +172,11 @@ struct Facet
 class Polytope
 {
 public:
-  explicit Polytope(const Difference& difference, double size) : difference_(difference), size_(size) {}
+  Polytope(const Difference& difference, double size) : difference_(difference), size_(size)
+  {
+    corners_.clear();
+    facets_.clear();
+  }
 
   /// False where the difference is flat.
   bool begin(const Simplex& simplex)
@@ -242,7 +246,7 @@ private:
       facets_.push_back({{i, j, k}, normal / area, normal.dot(w(i)) / area});
   }
 
-  Facet nearest() const
+  static Facet nearest()
   {
     const auto less = [](const Facet& a, const Facet& b) { return a.distance < b.distance; };
     return *std::min_element(facets_.begin(), facets_.end(), less);
@@ -254,8 +258,7 @@ private:
     edges_.clear();
     kept_.clear();
     for (const auto& facet : facets_) {
-      const double above = facet.normal.dot(corner.w - corners_[static_cast<std::size_t>(facet.corners[0])].w);
-      if (above <= 1e-13 * size_) {
+      if (facet.normal.dot(corner.w) - facet.distance <= 1e-13 * size_) {
         kept_.push_back(facet);
         continue;
       }
@@ -303,10 +306,17 @@ private:
   const Difference& difference_;
   double size_;
   Vector across_ = Vector::UnitZ();
-  std::vector<Corner> corners_;
-  std::vector<Facet> facets_, kept_;
-  std::vector<std::pair<int, int>> edges_;
+
+  // Empty between the uses: what is kept is memory only.
+  static thread_local std::vector<Corner> corners_;
+  static thread_local std::vector<Facet> facets_, kept_;
+  static thread_local std::vector<std::pair<int, int>> edges_;
 };
+
+thread_local std::vector<Corner> Polytope::corners_;
+thread_local std::vector<Facet> Polytope::facets_;
+thread_local std::vector<Facet> Polytope::kept_;
+thread_local std::vector<std::pair<int, int>> Polytope::edges_;
 
 } // namespace
 

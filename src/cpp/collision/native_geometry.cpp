@@ -1,4 +1,5 @@
 #include "collision/native_geometry.hpp"
+#include "collision/native_mesh.hpp"
 
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/CapsuleShape.hpp>
@@ -66,7 +67,7 @@ Vector support_of_spheres(const Hull& hull, const Vector& direction)
 /// The rim point of a disc of radius `half.x()` at height z.
 Vector rim(const Vector& half, const Vector& direction, double z)
 {
-  const double across = std::hypot(direction.x(), direction.y());
+  const double across = direction.head<2>().norm();
   if (across <= 1e-300)
     return {half.x(), 0.0, z};
   return {half.x() * direction.x() / across, half.x() * direction.y() / across, z};
@@ -112,6 +113,8 @@ Geometry geometry_of(const Shape& shape)
     made = solid(Form::spheres, Vector::Zero());
     made.hull = spheres(*balls);
     made.size = 2.0 * *std::min_element(made.hull->radii.begin(), made.hull->radii.end());
+  } else {
+    made = mesh_geometry(shape);
   }
   return made;
 }
@@ -127,7 +130,7 @@ Vector support(const Geometry& shape, const Vector& d)
   case Form::cylinder:
     return rim(half, d, d.z() < 0 ? -half.z() : half.z());
   case Form::cone:
-    if (2.0 * half.z() * d.z() >= half.x() * std::hypot(d.x(), d.y()))
+    if (2.0 * half.z() * d.z() >= half.x() * d.head<2>().norm())
       return {0.0, 0.0, half.z()};
     return rim(half, d, -half.z());
   case Form::ellipsoid: {
@@ -151,9 +154,10 @@ Bounds bounds_of(const Geometry& shape, const Pose& pose)
 {
   const auto turn = pose.linear();
   Vector low, high;
-  if (shape.form == Form::box) {
-    high = turn.cwiseAbs() * shape.half;
-    low = -high;
+  if (shape.form == Form::box || shape.form == Form::mesh) {
+    const Vector center = turn * shape.center, half = turn.cwiseAbs() * shape.half;
+    low = center - half;
+    high = center + half;
   } else {
     for (int i = 0; i < 3; ++i) {
       const Vector axis = turn.row(i).transpose();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "collision/native_distance.hpp"
+#include "collision/native_mesh.hpp"
 
 namespace pydart2::native {
 
@@ -321,6 +322,8 @@ void collide(const Geometry& a, const Geometry& b, const Pose& b_in_a, double ma
     }
     return;
   }
+  if (b.form == Form::mesh)
+    return collide_mesh(a, b, b_in_a, margin, points);
   if (a.form == Form::plane)
     return collide_plane(a, b, b_in_a, margin, points);
   collide_convex(a, b, b_in_a, margin, points);

@@ -4,6 +4,7 @@
 #include <dart/dynamics/ShapeNode.hpp>
 
 #include "collision/native_pairs.hpp"
+#include "engine/collision_filter.hpp"
 
 namespace pydart2::native {
 
@@ -55,11 +56,12 @@ void Scene::set_objects(const std::vector<Object*>& objects)
       continue;
     const auto* node = object->getShapeFrame()->asShapeNode();
     const auto* body = node == nullptr ? nullptr : node->getBodyNodePtr().get();
+    const auto* skeleton = body == nullptr ? nullptr : body->getSkeleton().get();
     const std::size_t place = body == nullptr ? 0 : body->getIndexInSkeleton();
     const bool bounded = object->geometry().form != Form::plane;
     if (!bounded)
       unbounded_.push_back(static_cast<int>(items_.size()));
-    items_.push_back({object, body, place, bounded, Pose::Identity(), 0.0, 0.0, {}, {}, false});
+    items_.push_back({object, body, skeleton, place, bounded, Pose::Identity(), 0.0, 0.0, {}, {}, false});
     items_.back().pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN()); // equal to no pose
     items_.back().wide = {Vector::Constant(1.0), Vector::Constant(-1.0)}; // contains nothing
   }
@@ -165,11 +167,14 @@ void Scene::find(
     const dart::collision::CollisionFilter* filter, const ContactMargin& margin, std::vector<Touch>& touches)
 {
   update(margin);
+  const engine::PairFilter fast(filter);
   for (const auto& [first, second] : pairs_) {
     auto &a = item(first), &b = item(second);
     if (a.bounded && b.bounded && !a.bounds.overlaps(b.bounds))
       continue;
-    if (filter == nullptr || !filter->ignoresCollision(a.object, b.object))
+    const bool sure = a.body != nullptr && b.body != nullptr && a.skeleton != b.skeleton
+                      && (a.skeleton->isMobile() || b.skeleton->isMobile()) && fast.surely_collide(*a.body, *b.body);
+    if (sure || filter == nullptr || !filter->ignoresCollision(a.object, b.object))
       touch(a, b, margin, touches);
   }
 }

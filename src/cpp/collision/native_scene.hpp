@@ -57,6 +57,7 @@ private:
   {
     Object* object;
     const dart::dynamics::BodyNode* body; ///< Null: a frame of its own.
+    const dart::dynamics::Skeleton* skeleton;
     std::size_t place; ///< Of the body in its skeleton.
     bool bounded;
     Pose pose;

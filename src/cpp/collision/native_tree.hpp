@@ -26,7 +26,7 @@ public:
   {
     if (nodes_.empty())
       return;
-    std::vector<int>& stack = stack_;
+    thread_local std::vector<int> stack; // `use` asks no tree
     stack.assign(1, 0);
     while (!stack.empty()) {
       const Node& node = nodes_[static_cast<std::size_t>(stack.back())];
@@ -54,7 +54,6 @@ private:
   std::vector<Node> nodes_;
   std::vector<int> leaf_of_; ///< The node of each leaf.
   std::size_t moves_ = 0;
-  mutable std::vector<int> stack_;
 };
 
 } // namespace pydart2::native
