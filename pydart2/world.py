@@ -450,6 +450,31 @@ class World(WorldBuilding):
         """Whether the search for the contact forces begins from those of the step before."""
         return self._handle.warm_start()
 
+    @property
+    def max_contacts(self) -> int | None:
+        """How many contacts a step takes; None, the default, for as many as there are.
+
+        Bodies whose contacts are left out pass through each other; the first time that happens is a warning.
+        """
+        return self._handle.max_contacts() or None
+
+    @max_contacts.setter
+    def max_contacts(self, most: int | None) -> None:
+        self._handle.set_max_contacts(0 if most is None else most or -1)
+
+    @property
+    def contact_memory_limit(self) -> float:
+        """Bytes that the equations of one group of touching bodies may take, 1e9 unless set.
+
+        The exact solvers need 16 bytes for each pair of rows, three rows a contact. A step that needs more is a
+        SimulationError, and takes nothing.
+        """
+        return self._handle.contact_memory_limit()
+
+    @contact_memory_limit.setter
+    def contact_memory_limit(self, limit: float) -> None:
+        self._handle.set_contact_memory_limit(limit)
+
     # Recording
 
     def is_recording(self) -> bool:

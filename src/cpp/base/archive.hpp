@@ -84,8 +84,18 @@ public:
     return static_cast<std::size_t>(value);
   }
 
-  /// Whether there is more on the way in, as what earlier versions did not save.
-  bool has_more() const { return number_ < numbers.size(); }
+  /// Whether a part follows that earlier versions did not save. It is saved only `if_any`, after its name.
+  bool part(const std::string& name, bool if_any)
+  {
+    if (!is_in()) {
+      if (if_any)
+        texts.push_back(name);
+      return if_any;
+    }
+    const bool follows = text_ < texts.size() && texts[text_] == name;
+    text_ += follows ? 1 : 0;
+    return follows;
+  }
 
   /// Throws unless all that was saved has been taken.
   void finish() const

@@ -4,7 +4,9 @@
 #include <dart/common/Console.hpp>
 #include <dart/constraint/DantzigBoxedLcpSolver.hpp>
 #include <dart/external/odelcpsolver/common.h>
+#include <iomanip>
 #include <set>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "contact/contact_reduction.hpp"
@@ -44,6 +46,8 @@ void install_solver(dart::simulation::World& world, Solver solver)
   auto installed = std::make_unique<FastConstraintSolver>();
   installed->set_solver(solver);
   world.setConstraintSolver(std::move(installed));
+  // The engine stops at 1,000 without a word: what is in the others' place sinks.
+  world.getConstraintSolver()->getCollisionOption().maxNumContacts = unlimited_contacts;
 }
 
 FastConstraintSolver& fast_solver(const dart::simulation::World& world)
@@ -79,6 +83,7 @@ void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
     shared_ = solver_ == Solver::fast && mConstrainedGroups.size() > 1 && groups_share_skeletons();
   if (contact_reduction_)
     keep_extremal_contacts(group);
+  check_memory(group);
   if (solver_ == Solver::dart || shared_) {
     BoxedLcpConstraintSolver::solveConstrainedGroup(group);
     return;
@@ -92,6 +97,21 @@ void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
   matrix_.fill(group, mTimeStep, mA);
   solve_lcp(group);
   matrix_.apply(group, mTimeStep, mX);
+}
+
+/// The solvers keep the matrix twice, the second time to begin anew from.
+void FastConstraintSolver::check_memory(const ConstrainedGroup& group) const
+{
+  const double rows = static_cast<double>(const_cast<ConstrainedGroup&>(group).getTotalDimension());
+  const double bytes = 2.0 * rows * rows * sizeof(double);
+  if (bytes <= memory_limit_)
+    return;
+  std::ostringstream text;
+  text << std::setprecision(3) << "the contacts and constraints of one group of bodies that touch have "
+       << std::setprecision(9) << rows << " rows, whose matrix would take " << std::setprecision(3) << bytes / 1e9
+       << " GB; world.contact_memory_limit is " << memory_limit_ / 1e9
+       << " GB. Raise it, set_contact_reduction(True), or take a detector that finds fewer contacts, as Bullet";
+  throw Error(Kind::simulation, text.str());
 }
 
 /// DART finds the group of a joint's constraint by one look at a forest of skeletons that contacts have joined, so a

@@ -2,6 +2,7 @@
 
 #include <dart/constraint/BoxedLcpConstraintSolver.hpp>
 #include <dart/simulation/World.hpp>
+#include <limits>
 #include <string>
 
 #include "contact/constraint_matrix.hpp"
@@ -38,6 +39,10 @@ public:
   bool warm_start() const { return warm_start_; }
   WarmLcp& warm_lcp() { return warm_lcp_; }
 
+  /// Most bytes that the matrices of one group may take; a step that needs more throws before it allocates them.
+  void set_memory_limit(double bytes) { memory_limit_ = bytes; }
+  double memory_limit() const { return memory_limit_; }
+
   /// Takes over what `other` has, its collision group included: a new one would change the order of the contacts.
   void setFromOtherConstraintSolver(const dart::constraint::ConstraintSolver& other) override;
 
@@ -46,6 +51,7 @@ protected:
 
 private:
   bool groups_share_skeletons();
+  void check_memory(const dart::constraint::ConstrainedGroup& group) const;
   void read_terms(dart::constraint::ConstrainedGroup& group);
   void solve_lcp(dart::constraint::ConstrainedGroup& group);
   void solve_lcp_again(dart::constraint::ConstrainedGroup& group);
@@ -53,12 +59,16 @@ private:
   Solver solver_ = Solver::fast;
   bool contact_reduction_ = false;
   bool warm_start_ = false;
+  double memory_limit_ = 1e9;
   bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
   ConstraintMatrix matrix_;
   DantzigLcp dantzig_lcp_;
   WarmLcp warm_lcp_;
   Eigen::VectorXd warm_x_;
 };
+
+/// What stands for no limit: detectors take the number for an int.
+constexpr std::size_t unlimited_contacts = std::numeric_limits<int>::max();
 
 /// Gives a world such a solver. Its collision detector, contacts, constraints and LCP solvers stay as they are, and so
 /// does the order of its contacts.

@@ -277,6 +277,33 @@ void WorldHandle::set_warm_start(bool enable)
   fast_solver(*world().world).set_warm_start(enable);
 }
 
+long WorldHandle::max_contacts() const
+{
+  const auto most = fast_solver(*world().world).getCollisionOption().maxNumContacts;
+  return most == unlimited_contacts ? 0 : static_cast<long>(most);
+}
+
+void WorldHandle::set_max_contacts(long most)
+{
+  if (most < 0 || most > static_cast<long>(unlimited_contacts))
+    throw Error(Kind::value, "the number of contacts must be positive, or None for no limit, got " + std::to_string(most));
+  auto& record = world();
+  fast_solver(*record.world).getCollisionOption().maxNumContacts
+      = most == 0 ? unlimited_contacts : static_cast<std::size_t>(most);
+  record.told_of_contact_limit = false;
+}
+
+double WorldHandle::contact_memory_limit() const
+{
+  return fast_solver(*world().world).memory_limit();
+}
+
+void WorldHandle::set_contact_memory_limit(double bytes)
+{
+  check::positive(bytes, "contact memory limit");
+  fast_solver(*world().world).set_memory_limit(bytes);
+}
+
 void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)
 {
   auto& record = world();

@@ -74,6 +74,12 @@ public:
   bool warm_start() const;
   void set_warm_start(bool enable);
 
+  /// How many contacts a step takes, 0 for as many as there are.
+  long max_contacts() const;
+  void set_max_contacts(long most);
+  double contact_memory_limit() const;
+  void set_contact_memory_limit(double bytes);
+
   /// Two bodies that do not collide with each other, or do again.
   void ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore);
   void ignore_no_pair();

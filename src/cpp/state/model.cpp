@@ -99,6 +99,20 @@ void visit_ignored_pairs(Archive& archive, WorldRecord& world)
     apply_ignored_pairs(world);
 }
 
+/// What is as in a new world is not saved.
+void visit_settings(Archive& archive, WorldRecord& record)
+{
+  auto& solver = fast_solver(*record.world);
+  auto& most = solver.getCollisionOption().maxNumContacts;
+  const FastConstraintSolver fresh;
+  const bool changed = most != unlimited_contacts || solver.memory_limit() != fresh.memory_limit();
+  if (!archive.part("settings", changed))
+    return;
+  archive.number(
+      [&] { return static_cast<double>(most); }, [&](double number) { most = static_cast<std::size_t>(number); });
+  archive.number([&] { return solver.memory_limit(); }, [&](double bytes) { solver.set_memory_limit(bytes); });
+}
+
 void visit_constraints(Archive& archive, WorldRecord& world)
 {
   auto& solver = *world.world->getConstraintSolver();
@@ -125,13 +139,12 @@ void visit_constraints(Archive& archive, WorldRecord& world)
   }
 }
 
-/// Comes last, and only if there is any: earlier versions saved none.
 void visit_armature(Archive& archive, WorldRecord& world)
 {
   bool any = false;
   for (const auto& item : world.skeletons)
     any |= !item->armature.empty();
-  if (archive.is_in() ? !archive.has_more() : !any)
+  if (!archive.part("armature", any))
     return;
   for (const auto& item : world.skeletons)
     for (auto* dof : item->skeleton->getDofs()) {
@@ -167,6 +180,7 @@ void visit_model(Archive& archive, WorldRecord& record)
   visit_ignored_pairs(archive, record);
   visit_constraints(archive, record);
   visit_armature(archive, record);
+  visit_settings(archive, record);
 }
 
 } // namespace pydart2

@@ -1,5 +1,6 @@
 #include "state/stepping.hpp"
 
+#include <dart/common/Console.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/PointMass.hpp>
@@ -175,6 +176,12 @@ void solve_constraints(WorldRecord& record, double time)
   const auto lock = ode ? lock_ode() : std::unique_lock<std::recursive_mutex>();
   native_group(solver); // the order of the shapes
   solver.solve();
+  const auto most = solver.getCollisionOption().maxNumContacts;
+  if (!record.told_of_contact_limit && solver.getLastCollisionResult().getNumContacts() >= most) {
+    record.told_of_contact_limit = true;
+    dtwarn << "[World] at t = " << time << " s there are " << most << " contacts or more, and world.max_contacts is " << most
+           << ": bodies whose contacts are left out pass through each other\n";
+  }
 }
 
 namespace {

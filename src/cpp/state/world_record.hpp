@@ -92,6 +92,7 @@ struct WorldRecord
   long frame = 0; ///< Steps since the last reset.
   int layout = 0; ///< Changes when skeletons are removed or get another tree, so that an earlier frame no longer fits.
   bool shapes_changed = false; ///< Since the detector got them, which then has them in another order than a clone's.
+  bool told_of_contact_limit = false; ///< The warning came.
   Recording recording;
 
 private:
