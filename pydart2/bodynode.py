@@ -140,17 +140,17 @@ class BodyNode(Frame, BodyBuilding):
         """Whether gravity acts on it."""
         return self._handle.gravity_mode()
 
-    def set_gravity_mode(self, gravity_mode: bool) -> None:
+    def set_gravity_mode(self, _gravityMode: bool) -> None:
         """Let gravity act on it or not."""
-        self._handle.set_gravity_mode(gravity_mode)
+        self._handle.set_gravity_mode(_gravityMode)
 
     def is_collidable(self) -> bool:
         """Whether it collides."""
         return self._handle.is_collidable()
 
-    def set_collidable(self, is_collidable: bool) -> None:
+    def set_collidable(self, _isCollidable: bool) -> None:
         """Let it collide or not."""
-        self._handle.set_collidable(is_collidable)
+        self._handle.set_collidable(_isCollidable)
 
     def mass(self) -> float:
         """Mass, kg."""
@@ -169,18 +169,18 @@ class BodyNode(Frame, BodyBuilding):
         """Moment of inertia about the COM, body axes, shape (3, 3), kg m²."""
         return self._handle.inertia()
 
-    def set_inertia(self, inertia: ArrayLike) -> None:
+    def set_inertia(self, I: ArrayLike) -> None:  # noqa: E741 (the original's)
         """Set the moment of inertia about the COM, body axes, shape (3, 3), kg m²; symmetric, positive definite."""
-        self._handle.set_inertia(inertia)
+        self._handle.set_inertia(I)
 
     def set_inertia_entries(
         self,
-        Ixx: float,  # noqa: N803 (the field's names)
-        Iyy: float,  # noqa: N803
-        Izz: float,  # noqa: N803
-        Ixy: float = 0.0,  # noqa: N803
-        Ixz: float = 0.0,  # noqa: N803
-        Iyz: float = 0.0,  # noqa: N803
+        Ixx: float,
+        Iyy: float,
+        Izz: float,
+        Ixy: float = 0.0,
+        Ixz: float = 0.0,
+        Iyz: float = 0.0,
     ) -> None:
         """Set the moment of inertia about the COM, body axes, kg m²."""
         self._handle.set_inertia([[Ixx, Ixy, Ixz], [Ixy, Iyy, Iyz], [Ixz, Iyz, Izz]])
@@ -314,8 +314,8 @@ class BodyNode(Frame, BodyBuilding):
         self,
         _force: ArrayLike,
         _offset: ArrayLike | None = None,
-        _isForceLocal: bool = False,  # noqa: N803 (the original's)
-        _isOffsetLocal: bool = True,  # noqa: N803
+        _isForceLocal: bool = False,
+        _isOffsetLocal: bool = True,
     ) -> None:
         """Add a force for the next step.
 
@@ -332,17 +332,17 @@ class BodyNode(Frame, BodyBuilding):
         self,
         _force: ArrayLike,
         _offset: ArrayLike | None = None,
-        _isForceLocal: bool = False,  # noqa: N803 (the original's)
-        _isOffsetLocal: bool = True,  # noqa: N803
+        _isForceLocal: bool = False,
+        _isOffsetLocal: bool = True,
     ) -> None:
         """Like add_ext_force(), in place of what was added before."""
         self._handle.set_ext_force(_force, _ORIGIN if _offset is None else _offset, _isForceLocal, _isOffsetLocal)
 
-    def add_ext_torque(self, _torque: ArrayLike, _isLocal: bool = False) -> None:  # noqa: N803 (the original's)
+    def add_ext_torque(self, _torque: ArrayLike, _isLocal: bool = False) -> None:
         """Add a torque for the next step, shape (3,), N m; in the world frame unless `_isLocal`."""
         self._handle.add_ext_torque(_torque, _isLocal)
 
-    def set_ext_torque(self, _torque: ArrayLike, _isLocal: bool = False) -> None:  # noqa: N803 (the original's)
+    def set_ext_torque(self, _torque: ArrayLike, _isLocal: bool = False) -> None:
         """Like add_ext_torque(), in place of what was added before."""
         self._handle.set_ext_torque(_torque, _isLocal)
 
@@ -350,8 +350,8 @@ class BodyNode(Frame, BodyBuilding):
         self,
         _force: ArrayLike,
         _offset: ArrayLike | None = None,
-        _isForceLocal: bool = False,  # noqa: N803 (the original's)
-        _isOffsetLocal: bool = True,  # noqa: N803
+        _isForceLocal: bool = False,
+        _isOffsetLocal: bool = True,
     ) -> None:
         """Like add_ext_force(), and noted in `force_arrows` to be drawn until the next step is over."""
         self.add_ext_force(_force, _offset, _isForceLocal, _isOffsetLocal)
@@ -361,8 +361,8 @@ class BodyNode(Frame, BodyBuilding):
         self,
         _force: ArrayLike,
         _offset: ArrayLike | None = None,
-        _isForceLocal: bool = False,  # noqa: N803 (the original's)
-        _isOffsetLocal: bool = True,  # noqa: N803
+        _isForceLocal: bool = False,
+        _isOffsetLocal: bool = True,
     ) -> None:
         """Like set_ext_force(), and noted in `force_arrows` to be drawn until the next step is over."""
         self.set_ext_force(_force, _offset, _isForceLocal, _isOffsetLocal)
@@ -430,9 +430,9 @@ class BodyNode(Frame, BodyBuilding):
         """Time derivative of angular_jacobian(), shape (3, n)."""
         return self._handle.angular_jacobian_deriv(full, out)
 
-    def expand_jacobian(self, Jdep: ArrayLike) -> NDArray[np.float64]:  # noqa: N803 (the original's)
+    def expand_jacobian(self, jacobian: ArrayLike) -> NDArray[np.float64]:
         """A Jacobian over the dependent dofs, shape (r, n), with zeros for the others, shape (r, ndofs); units stay."""
-        dependent = np.asarray(Jdep, dtype=float)
+        dependent = np.asarray(jacobian, dtype=float)
         full = np.zeros((dependent.shape[0], self.skeleton.ndofs))
         full[:, [dof.id for dof in self.dependent_dofs]] = dependent
         return full

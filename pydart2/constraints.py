@@ -26,7 +26,7 @@ class BallJointConstraint:
         The point, world frame, shape (3,), m, at the time of add_to_world().
     """
 
-    def __init__(self, body1: BodyNode, body2: BodyNode, jointPos: ArrayLike) -> None:  # noqa: N803 (the original's)
+    def __init__(self, body1: BodyNode, body2: BodyNode, jointPos: ArrayLike) -> None:
         self.body1 = body1
         self.body2 = body2
         self.jointPos: NDArray[np.float64] = np.array(jointPos, dtype=float)

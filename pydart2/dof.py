@@ -79,9 +79,9 @@ class Dof:
         """Position that World.reset() returns to, rad or m."""
         return self._handle.initial_position()
 
-    def set_initial_position(self, position: float) -> None:
+    def set_initial_position(self, _initial: float) -> None:
         """Set the position that World.reset() returns to, rad or m."""
-        self._handle.set_initial_position(position)
+        self._handle.set_initial_position(_initial)
 
     def has_position_limit(self) -> bool:
         """Whether either limit is finite."""
@@ -115,9 +115,9 @@ class Dof:
         """Velocity that World.reset() returns to, rad/s or m/s."""
         return self._handle.initial_velocity()
 
-    def set_initial_velocity(self, velocity: float) -> None:
+    def set_initial_velocity(self, _initial: float) -> None:
         """Set the velocity that World.reset() returns to, rad/s or m/s."""
-        self._handle.set_initial_velocity(velocity)
+        self._handle.set_initial_velocity(_initial)
 
     def velocity_lower_limit(self) -> float:
         """Lower limit of the velocity, rad/s or m/s; -inf for none."""
@@ -179,25 +179,25 @@ class Dof:
         """Stiffness of the joint's spring, N m/rad or N/m."""
         return self._handle.spring_stiffness()
 
-    def set_spring_stiffness(self, stiffness: float) -> None:
+    def set_spring_stiffness(self, _k: float) -> None:
         """Set the stiffness of the joint's spring, N m/rad or N/m, >= 0."""
-        self._handle.set_spring_stiffness(stiffness)
+        self._handle.set_spring_stiffness(_k)
 
     def rest_position(self) -> float:
         """Position at which the spring exerts no force, rad or m."""
         return self._handle.rest_position()
 
-    def set_rest_position(self, position: float) -> None:
+    def set_rest_position(self, _q0: float) -> None:
         """Set the position at which the spring exerts no force, rad or m."""
-        self._handle.set_rest_position(position)
+        self._handle.set_rest_position(_q0)
 
     def damping_coefficient(self) -> float:
         """Viscous damping, N m s/rad or N s/m."""
         return self._handle.damping_coefficient()
 
-    def set_damping_coefficient(self, coefficient: float) -> None:
+    def set_damping_coefficient(self, _coeff: float) -> None:
         """Set the viscous damping, N m s/rad or N s/m, >= 0."""
-        self._handle.set_damping_coefficient(coefficient)
+        self._handle.set_damping_coefficient(_coeff)
 
     def armature(self) -> float:
         """Inertia of what turns with the joint only, as a motor's rotor, kg m² or kg."""
@@ -222,9 +222,9 @@ class Dof:
         """Impulse of the constraints in the last step, N m s or N s."""
         return self._handle.constraint_impulse()
 
-    def set_constraint_impulse(self, impulse: float) -> None:
+    def set_constraint_impulse(self, _friction: float) -> None:
         """Set the constraint impulse, N m s or N s."""
-        self._handle.set_constraint_impulse(impulse)
+        self._handle.set_constraint_impulse(_friction)
 
     def __reduce__(self) -> tuple[object, ...]:
         return part_of, (self.skeleton, "dofs", self.id)

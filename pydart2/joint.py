@@ -85,7 +85,7 @@ class Joint:
         """
         return self.skeleton._handle.dynamics().joint_wrench(self.id)
 
-    def set_name(self, _name: str, _renameDofs: bool = True) -> str:  # noqa: N803 (the original's)
+    def set_name(self, _name: str, _renameDofs: bool = True) -> str:
         """Rename the joint and, if asked, its dofs; returns the name it got, which differs if it was taken."""
         self._handle.set_name(_name, _renameDofs)
         self.skeleton._refresh_names()
@@ -134,23 +134,23 @@ class Joint:
         """Pose of the joint in the parent body, shape (4, 4), m."""
         return self._handle.transform_from_parent_body_node()
 
-    def set_transform_from_parent_body_node(self, transform: ArrayLike) -> None:
+    def set_transform_from_parent_body_node(self, T: ArrayLike) -> None:
         """Set the pose of the joint in the parent body, shape (4, 4), m."""
-        self._handle.set_transform_from_parent_body_node(transform)
+        self._handle.set_transform_from_parent_body_node(T)
 
     def transform_from_child_body_node(self) -> NDArray[np.float64]:
         """Pose of the joint in the child body, shape (4, 4), m."""
         return self._handle.transform_from_child_body_node()
 
-    def set_transform_from_child_body_node(self, transform: ArrayLike) -> None:
+    def set_transform_from_child_body_node(self, T: ArrayLike) -> None:
         """Set the pose of the joint in the child body, shape (4, 4), m."""
-        self._handle.set_transform_from_child_body_node(transform)
+        self._handle.set_transform_from_child_body_node(T)
 
     def is_position_limit_enforced(self) -> bool:
         """Whether the position limits act; by default they do not."""
         return self._handle.is_position_limit_enforced()
 
-    def set_position_limit_enforced(self, _isPositionLimitEnforced: bool = True) -> None:  # noqa: N803
+    def set_position_limit_enforced(self, _isPositionLimitEnforced: bool = True) -> None:
         """Let the position limits act or not."""
         self._handle.set_position_limit_enforced(_isPositionLimitEnforced)
 
@@ -182,25 +182,25 @@ class Joint:
         """Spring stiffness of its dof `index`, N m/rad or N/m."""
         return self._dof(index).spring_stiffness()
 
-    def set_spring_stiffness(self, index: int, stiffness: float) -> None:
-        """Set the spring stiffness of its dof `index`, N m/rad or N/m, >= 0."""
-        self._dof(index).set_spring_stiffness(stiffness)
+    def set_spring_stiffness(self, _index: int, _k: float) -> None:
+        """Set the spring stiffness of its dof `_index`, N m/rad or N/m, >= 0."""
+        self._dof(_index).set_spring_stiffness(_k)
 
     def rest_position(self, index: int) -> float:
         """Rest position of the spring of its dof `index`, rad or m."""
         return self._dof(index).rest_position()
 
-    def set_rest_position(self, index: int, position: float) -> None:
-        """Set the rest position of the spring of its dof `index`, rad or m."""
-        self._dof(index).set_rest_position(position)
+    def set_rest_position(self, _index: int, _q0: float) -> None:
+        """Set the rest position of the spring of its dof `_index`, rad or m."""
+        self._dof(_index).set_rest_position(_q0)
 
     def damping_coefficient(self, index: int) -> float:
         """Viscous damping of its dof `index`, N m s/rad or N s/m."""
         return self._dof(index).damping_coefficient()
 
-    def set_damping_coefficient(self, index: int, coefficient: float) -> None:
-        """Set the viscous damping of its dof `index`, N m s/rad or N s/m, >= 0."""
-        self._dof(index).set_damping_coefficient(coefficient)
+    def set_damping_coefficient(self, _index: int, _coeff: float) -> None:
+        """Set the viscous damping of its dof `_index`, N m s/rad or N s/m, >= 0."""
+        self._dof(_index).set_damping_coefficient(_coeff)
 
     def coulomb_friction(self, index: int) -> float:
         """Coulomb friction of its dof `index`, N m or N."""
@@ -336,9 +336,9 @@ class EulerJoint(Joint):
         """``"XYZ"`` or ``"ZYX"``."""
         return self._handle.axis_order()
 
-    def set_axis_order(self, axisorder: str) -> None:
+    def set_axis_order(self, _axis_order: str) -> None:
         """Set the order, ``"XYZ"`` or ``"ZYX"``; the engine renames the dofs."""
-        self._handle.set_axis_order(axisorder)
+        self._handle.set_axis_order(_axis_order)
         self.skeleton._refresh_names()
 
 

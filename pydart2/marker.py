@@ -66,9 +66,9 @@ class Marker:
         """Position in the body frame, shape (3,), m."""
         return self._handle.local_position()
 
-    def set_local_position(self, position: ArrayLike) -> None:
+    def set_local_position(self, inv3: ArrayLike) -> None:
         """Set the position in the body frame, shape (3,), m."""
-        self._handle.set_local_position(position)
+        self._handle.set_local_position(inv3)
 
     def world_position(self) -> NDArray[np.float64]:
         """Position in the world, shape (3,), m."""

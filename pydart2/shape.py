@@ -176,9 +176,9 @@ class PlaneShape(Shape):
         """Unit normal, shape (3,)."""
         return self._handle.normal()
 
-    def set_normal(self, normal: ArrayLike) -> None:
+    def set_normal(self, inv3: ArrayLike) -> None:
         """Set the normal, shape (3,); it is made a unit vector."""
-        self._handle.set_normal(normal)
+        self._handle.set_normal(inv3)
 
     def offset(self) -> float:
         """Distance from the origin along the normal, m."""
@@ -194,9 +194,9 @@ class MultiSphereShape(Shape):
 
     TYPE_ID = 7
 
-    def add_sphere(self, radius: float, position: ArrayLike) -> None:
+    def add_sphere(self, r: float, pos: ArrayLike) -> None:
         """Add a sphere: radius, m, > 0; centre, shape (3,), m."""
-        self._handle.add_sphere(radius, position)
+        self._handle.add_sphere(r, pos)
 
     def spheres(self) -> list[dict[str, Any]]:
         """One ``{"r": radius in m, "pos": centre of shape (3,) in m}`` per sphere."""

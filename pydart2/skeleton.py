@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import numpy as np
@@ -35,11 +35,23 @@ _PARTS = ("dofs", "joints", "bodynodes", "markers", "name_to_dof", "name_to_join
 _BUILT = frozenset(("world", "id", "_handle", "_pattern", *_PARTS))
 
 
-class Controller(Protocol):
-    """What a skeleton's controller must have."""
+class HasCompute(Protocol):
+    """What a skeleton's controller must have, if it is not a function."""
 
     def compute(self) -> ArrayLike:
         """The generalized forces for the next step, shape (ndofs,), N m or N."""
+
+
+#: Computes the generalized forces for the next step, shape (ndofs,), N m or N.
+Controller = HasCompute | Callable[[], ArrayLike]
+
+
+def _compute_of(controller: Controller) -> Callable[[], ArrayLike]:
+    """What a controller computes with; TypeError for what is none."""
+    compute = getattr(controller, "compute", controller)
+    if not callable(compute):
+        raise TypeError(f"a controller is a function of no arguments, or has compute(); {controller!r} is neither")
+    return compute
 
 
 class Skeleton(Dynamics, SkeletonBuilding):
@@ -60,8 +72,8 @@ class Skeleton(Dynamics, SkeletonBuilding):
     id : int
         Index in the world.
     filename : str or None
-    controller : object with compute(), or None
-        World.step() applies what it computes as forces.
+    controller : function of no arguments, object with compute(), or None
+        World.step() applies what it returns as forces.
     dofs, joints, bodynodes, markers : lists
         In the engine's order.
     name_to_dof, name_to_joint, name_to_body : dicts
@@ -89,7 +101,7 @@ class Skeleton(Dynamics, SkeletonBuilding):
             raise TypeError("Skeleton() needs a file name or an id")
         self.id = _id
         self._controller: Controller | None = None
-        self._tau: Any = None
+        self._tau: SkelVector | None = None
         self.build()
 
     @classmethod
@@ -159,11 +171,13 @@ class Skeleton(Dynamics, SkeletonBuilding):
 
     @controller.setter
     def controller(self, controller: Controller | None) -> None:
+        if controller is not None:
+            _compute_of(controller)
         self._controller = controller
         self.world._find_controllers()
 
     def set_controller(self, _controller: Controller | None) -> None:
-        """Let a controller act before each step; None for none."""
+        """Let a controller act before each step; None for none. TypeError if it is no function and has no compute()."""
         self.controller = _controller
 
     @property
@@ -253,9 +267,9 @@ class Skeleton(Dynamics, SkeletonBuilding):
         """Whether it moves in a step."""
         return self._handle.is_mobile()
 
-    def set_mobile(self, is_mobile: bool) -> None:
+    def set_mobile(self, mobile: bool) -> None:
         """Let it move in a step or not."""
-        self._handle.set_mobile(is_mobile)
+        self._handle.set_mobile(mobile)
 
     def self_collision_check(self) -> bool:
         """Whether its bodies collide with each other; by default they do not."""
@@ -310,9 +324,9 @@ class Skeleton(Dynamics, SkeletonBuilding):
         """Generalized velocities, shape (ndofs,), rad/s or m/s. A copy."""
         return self._handle.velocities(self._pattern if out is None else out)
 
-    def set_velocities(self, _dq: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
+    def set_velocities(self, _qdot: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized velocities, shape (ndofs,), rad/s or m/s, or some of them by name."""
-        self._handle.set_velocities(self._vector(_dq, by_name, "dq"))
+        self._handle.set_velocities(self._vector(_qdot, by_name, "dq"))
 
     set_dq = set_velocities
 
@@ -438,9 +452,12 @@ class Skeleton(Dynamics, SkeletonBuilding):
         """Generalized forces of contacts, limits and constraints in the last step, shape (ndofs,), N m or N."""
         return self._handle.constraint_forces(out)
 
-    def forces(self) -> Any:
-        """What was last passed to set_forces(), the same object; zeros before. It stays after the step that used it."""
-        return self._pattern.copy() if self._tau is None else self._tau
+    def forces(self) -> SkelVector:
+        """The generalized forces last set, shape (ndofs,), N m or N; zeros before. A copy.
+
+        They stay after the step that used them, in which the engine clears its own.
+        """
+        return (self._pattern if self._tau is None else self._tau).copy()
 
     def set_forces(self, _tau: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized forces of the next step, shape (ndofs,), N m or N; or some by name, the others zero."""
@@ -449,14 +466,15 @@ class Skeleton(Dynamics, SkeletonBuilding):
     set_tau = set_forces
 
     @property
-    def tau(self) -> Any:
-        """What was last set; zeros before. Setting gives the generalized forces of the next step, N m or N."""
+    def tau(self) -> SkelVector:
+        """The generalized forces last set, shape (ndofs,), N m or N; zeros before. A copy. Set for one step."""
         return self.forces()
 
     @tau.setter
     def tau(self, tau: ArrayLike) -> None:
         self._handle.set_forces(tau)
-        self._tau = tau
+        self._tau = self._pattern.copy()
+        self._tau[:] = tau
 
     def commands(self, out: SkelVector | None = None) -> SkelVector:
         """Commands to the actuators, shape (ndofs,), in the unit of each joint's actuator type. A copy."""
@@ -522,11 +540,11 @@ class Skeleton(Dynamics, SkeletonBuilding):
 
     # Stable PD control (spd.py)
 
-    def get_spd(self, q_des: ArrayLike, h: float, Kp: ArrayLike, Kd: ArrayLike) -> NDArray[np.float64]:  # noqa: N803
+    def get_spd(self, q_des: ArrayLike, h: float, Kp: ArrayLike, Kd: ArrayLike) -> NDArray[np.float64]:
         """Forces of a stable PD controller towards a pose, without regard to contacts, shape (ndofs,), N m or N."""
         return spd.forces(self, h, Kp, Kd, q_des, external=np.zeros(self.ndofs))
 
-    def get_spd_forces(self, q_des: ArrayLike, h: float, Kp: ArrayLike, Kd: ArrayLike) -> NDArray[np.float64]:  # noqa: N803
+    def get_spd_forces(self, q_des: ArrayLike, h: float, Kp: ArrayLike, Kd: ArrayLike) -> NDArray[np.float64]:
         """Forces of a stable PD controller towards a pose, with the last step's contacts, shape (ndofs,), N m or N."""
         return spd.forces(self, h, Kp, Kd, q_des)
 
@@ -536,8 +554,8 @@ class Skeleton(Dynamics, SkeletonBuilding):
         dq_des: ArrayLike,
         ddq_des: ArrayLike,
         h: float,
-        Kp: ArrayLike,  # noqa: N803 (the field's name)
-        Kd: ArrayLike,  # noqa: N803
+        Kp: ArrayLike,
+        Kd: ArrayLike,
     ) -> NDArray[np.float64]:
         """Forces of a stable PD controller along a trajectory, with the last step's contacts, shape (ndofs,)."""
         return spd.forces(self, h, Kp, Kd, q_des, dq_des, ddq_des)

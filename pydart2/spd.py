@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def forces(
     skel: Skeleton,
     h: float,
-    Kp: ArrayLike,  # noqa: N803 (the field's name)
-    Kd: ArrayLike,  # noqa: N803
+    Kp: ArrayLike,
+    Kd: ArrayLike,
     q_des: ArrayLike,
     dq_des: ArrayLike = 0.0,
     ddq_des: ArrayLike = 0.0,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import logging
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -18,7 +18,7 @@ from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError, NameNotFound
 from pydart2.recording import Recording
-from pydart2.skeleton import Controller, Skeleton
+from pydart2.skeleton import Skeleton, _compute_of
 from pydart2.state import Snapshot, model_hash
 
 if TYPE_CHECKING:
@@ -140,7 +140,7 @@ class World(WorldBuilding):
         self.control_skel: Skeleton | None = None
         self.recording: Recording | None = None
         self.skeletons: list[Skeleton] = []
-        self._controlled: list[tuple[Skeleton, Controller]] = []
+        self._controlled: list[tuple[Skeleton, Callable[[], ArrayLike]]] = []
         self.collision_result = CollisionResult(self)
         self.collision_filter = CollisionFilter(self)
         manager.count(self)
@@ -154,7 +154,7 @@ class World(WorldBuilding):
     def add_skeleton(
         self,
         filename: Source,
-        CLASS: type[Skeleton] | None = None,  # noqa: N803
+        CLASS: type[Skeleton] | None = None,
         *,
         packages: Mapping[str, str | os.PathLike[str]] | None = None,
         missing_meshes: Missing = "error",
@@ -280,10 +280,10 @@ class World(WorldBuilding):
         Before each, skeletons with a controller get the forces that it computes. Forces and external forces act in one
         step and are cleared after it.
         """
-        if self._controlled:
+        if self._controlled and n > 0:
             for _ in range(n):
-                for skel, controller in self._controlled:
-                    skel.tau = controller.compute()
+                for skel, compute in self._controlled:
+                    skel.tau = compute()
                 self._step(1)
         else:
             self._step(n)
@@ -291,7 +291,7 @@ class World(WorldBuilding):
 
     def _find_controllers(self) -> None:
         """Note who acts before each step, so that step() does not have to look."""
-        self._controlled = [(s, c) for s in self.skeletons if (c := s.controller) is not None]
+        self._controlled = [(s, _compute_of(c)) for s in self.skeletons if (c := s.controller) is not None]
 
     def check_collision(self) -> None:
         """Find the contacts and their forces for the present state, without a step."""

@@ -87,7 +87,13 @@ private:
       return Py_NewRef(passed_);
     const std::string size = std::to_string(shape[0]) + (ndim == 1 ? "," : ", " + std::to_string(shape[1]));
     PyObject* got = PyObject_GetAttrString(passed_, "shape");
-    PyErr_Format(PyExc_ValueError, "out needs to be writeable, in C order and of shape (%s), got %S", size.c_str(), got);
+    const char* flaw = !PyArray_ISWRITEABLE(array)       ? " that may not be written to"
+                       : !PyArray_IS_C_CONTIGUOUS(array) ? " whose numbers do not follow each other in C order"
+                       : !PyArray_ISCARRAY(array)        ? " in another byte order or not aligned"
+                                                         : "";
+    PyErr_Format(
+        PyExc_ValueError, "out needs to be a writeable array in C order of shape (%s), got one of shape %S%s", size.c_str(),
+        got, flaw);
     Py_XDECREF(got);
     return nullptr;
   }

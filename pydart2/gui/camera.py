@@ -99,6 +99,11 @@ def as_camera(camera: int | Trackball | Camera | tuple[ArrayLike, float]) -> Cam
         if not 0 <= camera < len(trackballs):
             raise ValueError(f"no camera {camera}; 0 is Y up, 1 is Z up")
         return Camera(trackballs[int(camera)][1].view)
+    if not isinstance(camera, (tuple, list)) or len(camera) != 2:
+        raise ValueError(
+            "a camera is 0, 1, a name as 'front', a Trackball, a Camera or (pose, field of view in rad), "
+            f"not {camera!r}"
+        )
     pose, fov = camera
     matrix = np.asarray(pose, dtype=float)
     if matrix.shape != (4, 4) or not np.isfinite(matrix).all() or abs(np.linalg.det(matrix)) < 1e-9:

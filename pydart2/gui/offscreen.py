@@ -196,5 +196,7 @@ def _shared_renderer() -> OffscreenRenderer:
 
 
 def _check_size(width: int, height: int) -> None:
+    if not (isinstance(width, (int, np.integer)) and isinstance(height, (int, np.integer))):
+        raise TypeError(f"a picture's width and height are two whole numbers, as 640, 480, not {width!r}, {height!r}")
     if not (0 < width <= 16384 and 0 < height <= 16384):
         raise ValueError(f"a picture is 1 to 16384 pixels wide and high, not {width} by {height}")

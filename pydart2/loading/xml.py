@@ -15,6 +15,8 @@ MAX_ELEMENTS = 500_000
 MAX_DEPTH = 200
 
 _log = logging.getLogger("pydart2")
+_DECLARATION = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s|<!--.*?-->)*(<\?xml\s[^>]*\?>)", re.DOTALL)
+_ENCODING = re.compile(rb"""encoding\s*=\s*["']([\w.-]+)["']""")
 _TAG = re.compile(rb"""<(?:"[^"]*"|'[^']*'|[^>"'])*>""")
 
 
@@ -99,8 +101,9 @@ def _as_utf8(data: bytes, path: str | None) -> bytes:
     """The bytes of the same text in UTF-8, without a byte order mark."""
     if len(data) > MAX_BYTES:
         raise LoadError.at(path, None, f"it has {len(data)} bytes; at most {MAX_BYTES} are read")
-    declared = re.match(rb"""\s*<\?xml[^>]*?encoding\s*=\s*["']([\w.-]+)["']""", data[:200])
-    encoding = declared.group(1).decode() if declared else "utf-8"
+    declaration = _DECLARATION.match(data)
+    declared = _ENCODING.search(declaration[1]) if declaration else None
+    encoding = declared[1].decode() if declared else "utf-8"
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         encoding = "utf-16"
     try:
@@ -110,7 +113,12 @@ def _as_utf8(data: bytes, path: str | None) -> bytes:
         text = data.decode("latin-1")
     if "\0" in text:
         raise LoadError.at(path, text.count("\n", 0, text.index("\0")) + 1, "it is not a text: it has a zero byte")
-    return text.encode("utf-8", "replace")
+    utf8 = text.encode("utf-8", "replace")
+    declaration = _DECLARATION.match(utf8)
+    if declaration is not None:  # it may follow a comment here, as in other readers, though not in XML
+        start, end = declaration.span(1)
+        utf8 = utf8[:start] + re.sub(rb"[^\n]", b" ", utf8[start:end]) + utf8[end:]
+    return utf8
 
 
 class _Reader:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 
-def fn_inv_f_vce0(f_vce0: float, K: float, N: float) -> float:  # noqa: N803 (the model's names)
+def fn_inv_f_vce0(f_vce0: float, K: float, N: float) -> float:
     """Velocity of the contractile element at which the force–velocity curve has a value.
 
     With velocity v in units of the maximum shortening speed, v < 0 for shortening, the curve is ::

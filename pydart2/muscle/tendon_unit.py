@@ -79,15 +79,15 @@ class MusculoTendonUnit:
 
     def __init__(
         self,
-        F_MAX: float,  # noqa: N803 (the original's names)
-        L_OPT: float,  # noqa: N803
-        V_MAX: float,  # noqa: N803
-        L_SLACK: float,  # noqa: N803
-        L_MTU: float | None = None,  # noqa: N803
-        A: float = 0.01,  # noqa: N803
-        DEL_T: float = 0.02,  # noqa: N803
+        F_MAX: float,
+        L_OPT: float,
+        V_MAX: float,
+        L_SLACK: float,
+        L_MTU: float | None = None,
+        A: float = 0.01,
+        DEL_T: float = 0.02,
         name: str | None = None,
-        TIMESTEP: float = 0.001,  # noqa: N803
+        TIMESTEP: float = 0.001,
     ) -> None:
         positive = {"F_MAX": F_MAX, "L_OPT": L_OPT, "|V_MAX|": abs(V_MAX), "L_SLACK": L_SLACK, "TIMESTEP": TIMESTEP}
         for what, value in positive.items():
@@ -148,7 +148,7 @@ class MusculoTendonUnit:
         self.F_mtu = self.F_MAX * f_se0
         return self.F_mtu
 
-    def fn_ECC(self, S: float) -> float:  # noqa: N802, N803 (the original's; excitation–contraction coupling)
+    def fn_ECC(self, S: float) -> float:  # noqa: N802 (the original's; excitation–contraction coupling)
         """The activation after TIMESTEP at stimulation S: ``da/dt = (S - a) / tau``.
 
         tau is TAU_ACT while the activation rises and TAU_DACT while it falls.

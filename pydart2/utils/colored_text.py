@@ -13,8 +13,8 @@ _DIM = "\x1b[2m"
 
 
 def _painter(name: str, number: int, style: str = "") -> Callable[[str], str]:
-    def paint(text: str) -> str:
-        return f"{style}\x1b[{number}m{text}{_RESET}"
+    def paint(txt: str) -> str:
+        return f"{style}\x1b[{number}m{txt}{_RESET}"
 
     paint.__name__ = paint.__qualname__ = name
     paint.__doc__ = f"The text between the codes for {name.replace('_', ' ').replace('yello', 'yellow')} and for reset."

@@ -43,6 +43,7 @@ def test_no_box_sinks_where_there_are_more_than_a_thousand_contacts(detector: in
 def test_a_limit_is_a_setting_and_says_so_once(caplog: pytest.LogCaptureFixture) -> None:
     world = boxes(30)
     assert world.max_contacts is None
+    pydart2.set_verbose(True)
     world.max_contacts = 50
     with caplog.at_level(logging.WARNING, "pydart2"):
         world.step(5)

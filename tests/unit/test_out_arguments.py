@@ -79,7 +79,10 @@ def test_what_does_not_fit_is_refused_untouched(fullbody: pydart2.World) -> None
         ]
         wrong.append(np.zeros((*shape[:-1], shape[-1] + 1)))
         for out in wrong:
-            with pytest.raises((TypeError, ValueError), match=r"out needs to be (an array of float64|writeable), "):
+            with pytest.raises(
+                (TypeError, ValueError),
+                match=r"out needs to be (an array of float64|a writeable array in C order of shape)",
+            ):
                 method(out=out)
             assert not np.any(np.asarray(out)), method.__name__
 

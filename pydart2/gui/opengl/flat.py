@@ -77,13 +77,13 @@ class FlatRenderer:
         """Turn what is drawn from now on about z."""
         GL.glRotated(np.degrees(angle_in_rad), 0.0, 0.0, 1.0)
 
-    def mult_matrix(self, m44: ArrayLike) -> None:
+    def mult_matrix(self, m: ArrayLike) -> None:
         """Transform what is drawn from now on by a matrix (4, 4)."""
-        GL.glMultMatrixd(np.asarray(m44, dtype=float).reshape(4, 4).T.copy())
+        GL.glMultMatrixd(np.asarray(m, dtype=float).reshape(4, 4).T.copy())
 
-    def mult_matrix_raw(self, list16: ArrayLike) -> None:
+    def mult_matrix_raw(self, m: ArrayLike) -> None:
         """Transform what is drawn from now on by a matrix of 16 numbers, column by column."""
-        GL.glMultMatrixd(np.asarray(list16, dtype=float).reshape(16))
+        GL.glMultMatrixd(np.asarray(m, dtype=float).reshape(16))
 
     def line_width(self, w: float) -> None:
         """Draw lines so many pixels wide from now on."""
@@ -120,7 +120,7 @@ class FlatRenderer:
 
     def draw_arrow(self, p0: ArrayLike, p1: ArrayLike, head_len: float = 20.0, head_angle: float = 0.25) -> None:
         """Draw an arrow of lines from `p0` to `p1`; the head's lines are at `head_angle` * pi rad to the shaft."""
-        start, end = np.asarray(p0, dtype=float)[:2], np.asarray(p1, dtype=float)[:2]
+        start, end = numbers(p0)[:2], numbers(p1)[:2]
         self.draw_line(start, end)
         if (length := float(np.linalg.norm(end - start))) == 0.0:
             return
@@ -133,7 +133,8 @@ class FlatRenderer:
         self, sx: float, sy: float, center: ArrayLike | None = None, angle: float | None = None, fill: bool = False
     ) -> None:
         """Draw a rectangle, turned by an angle in rad about its middle."""
-        corners = np.array([(-sx, -sy), (sx, -sy), (sx, sy), (-sx, sy)]) / 2.0
+        x, y = number(sx) / 2.0, number(sy) / 2.0
+        corners = np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
         self._outline(corners, center, angle, fill)
 
     def draw_circle(
@@ -144,7 +145,7 @@ class FlatRenderer:
 
     def draw_ellipse(self, p0: ArrayLike, p1: ArrayLike, b: float, num_segments: int = 20, fill: bool = False) -> None:
         """Draw an ellipse by the ends of its long axis, marked with circles of radius 5, and its half short axis."""
-        start, end = np.asarray(p0, dtype=float)[:2], np.asarray(p1, dtype=float)[:2]
+        start, end = numbers(p0)[:2], numbers(p1)[:2]
         along = end - start
         half, angle = float(np.linalg.norm(along)) / 2.0, float(np.arctan2(along[1], along[0]))
         self.draw_ellipse_at(half, b, (start + end) / 2.0, angle, num_segments, fill)
@@ -162,7 +163,7 @@ class FlatRenderer:
     ) -> None:
         """Draw an ellipse with these half axes, turned by an angle in rad about its middle."""
         turn = np.linspace(0.0, 2.0 * np.pi, num_segments, endpoint=False)
-        self._outline(np.stack([a * np.cos(turn), b * np.sin(turn)], axis=1), center, angle, fill)
+        self._outline(np.stack([number(a) * np.cos(turn), number(b) * np.sin(turn)], axis=1), center, angle, fill)
 
     def draw_text(self, pos: ArrayLike, text: str, font: Any = 18) -> None:
         """Draw a line of text whose baseline starts at `pos`, 2 or 3 numbers. `font` is a height in pixels or one of
@@ -194,15 +195,15 @@ class FlatRenderer:
         self.textures += made
         return made
 
-    def delete_textures(self, t: int | Sequence[int]) -> None:
+    def delete_textures(self, textures: int | Sequence[int]) -> None:
         """Free textures."""
-        names = [int(name) for name in np.atleast_1d(t)]
+        names = [int(name) for name in np.atleast_1d(textures)]
         GL.glDeleteTextures(len(names), names)
         self.textures = [name for name in self.textures if name not in names]
 
-    def bind_texture(self, t: int) -> None:
+    def bind_texture(self, texture: int) -> None:
         """Draw with a texture from now on; -1 is the last one."""
-        GL.glBindTexture(GL.GL_TEXTURE_2D, self._texture(t))
+        GL.glBindTexture(GL.GL_TEXTURE_2D, self._texture(texture))
 
     def set_texture_as_image(self, img: Any, texture: int = -1) -> None:
         """Give a texture, by default the last one, the pixels of a Pillow picture."""
@@ -224,7 +225,7 @@ class FlatRenderer:
         with self._unlit():
             GL.glBegin(kind)
             for point in points:
-                GL.glVertex2d(*np.asarray(point, dtype=float)[:2])
+                GL.glVertex2d(*numbers(point)[:2])
             GL.glEnd()
 
     @contextmanager
@@ -241,16 +242,26 @@ class FlatRenderer:
             GL.glPopAttrib()
 
 
+def number(value: ArrayLike) -> float:
+    """A length (m or pixels) or an angle (rad), which old code gives in an array of shape (1,) too."""
+    return float(np.asarray(value, dtype=float).item())
+
+
+def numbers(values: Any) -> Array:
+    """A point or a size (m or pixels), or a colour (0 to 1), shape (n,); its entries may be arrays of one element."""
+    return np.array([number(value) for value in values])
+
+
 def _placed(points: Array, center: ArrayLike | None, angle: float | None) -> Array:
     if angle:
-        cos, sin = np.cos(angle), np.sin(angle)
+        cos, sin = np.cos(number(angle)), np.sin(number(angle))
         points = points @ np.array([[cos, sin], [-sin, cos]])
-    return points if center is None else points + np.asarray(center, dtype=float)[:2]
+    return points if center is None else points + numbers(center)[:2]
 
 
 def _in_picture(to_clip: Array, position: ArrayLike) -> tuple[float, float, float]:
     """Pixels from the upper left corner of the viewport, and depth from 0 to 1."""
-    clip = to_clip @ np.append(np.append(np.asarray(position, dtype=float), 0.0)[:3], 1.0)
+    clip = to_clip @ np.append(np.append(numbers(position), 0.0)[:3], 1.0)
     x, y, z = clip[:3] / clip[3]
     _, _, width, height = GL.glGetIntegerv(GL.GL_VIEWPORT)
     return float(width * (1.0 + x) / 2.0), float(height * (1.0 - y) / 2.0), float((1.0 + z) / 2.0)

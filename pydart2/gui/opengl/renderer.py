@@ -11,7 +11,7 @@ from OpenGL import GL
 
 from pydart2.gui import drawing, geometry
 from pydart2.gui.geometry import Mesh
-from pydart2.gui.opengl.flat import FlatRenderer
+from pydart2.gui.opengl.flat import FlatRenderer, number, numbers
 from pydart2.gui.scene import between
 
 Array = NDArray[np.float64]
@@ -68,7 +68,7 @@ class Renderer(FlatRenderer):
         with self._unlit():
             GL.glBegin(GL.GL_LINE_STRIP)
             for point in points:
-                GL.glVertex3d(*np.asarray(point, dtype=float))
+                GL.glVertex3d(*numbers(point))
             GL.glEnd()
 
     def render_sphere(self, pos: ArrayLike, r: float, num_seg1: int = 20, num_seg2: int = 10) -> None:
@@ -81,7 +81,7 @@ class Renderer(FlatRenderer):
 
     def render_box_two_points(self, p: ArrayLike, q: ArrayLike, sx: float, sy: float) -> None:
         """Draw a box from `p` to `q`, `sx` by `sy` across."""
-        start, end = np.asarray(p, dtype=float), np.asarray(q, dtype=float)
+        start, end = numbers(p), numbers(q)
         if (length := norm(end - start)) > 0.0:
             self._solid(geometry.box(), between(start, end), (sx, sy, length))
 
@@ -101,13 +101,13 @@ class Renderer(FlatRenderer):
         GL.glPushAttrib(GL.GL_CURRENT_BIT)
         colors = ((0.9, 0.9, 0.9) if color1 is None else color1, (0.15, 0.15, 0.15) if color2 is None else color2)
         for squares, color in zip(geometry.chessboard(n), colors):
-            self.color(*np.asarray(color, dtype=float))
+            self.color(*numbers(color))
             self._solid(squares, np.eye(4), (sz, sz, 1.0))
         GL.glPopAttrib()
 
     def render_cylinder(self, pos: ArrayLike, r: float, h: float, num_seg1: int = 20, num_seg2: int = 10) -> None:
         """Draw a cylinder from `pos` along z. The numbers of segments are of no effect."""
-        middle = np.asarray(pos, dtype=float) + np.array([0.0, 0.0, h / 2.0])
+        middle = numbers(pos) + np.array([0.0, 0.0, number(h) / 2.0])
         self._solid(geometry.cylinder(), _at(middle), (r, r, h))
 
     def render_cylinder_two_points(self, p0: ArrayLike, p1: ArrayLike, radius: float) -> None:
@@ -118,7 +118,7 @@ class Renderer(FlatRenderer):
         self, p: ArrayLike, q: ArrayLike, r_base: float = 0.01, head_width: float = 0.015, head_len: float = 0.01
     ) -> None:
         """Draw an arrow from `p` to `q`: radius of the shaft, radius and length of the head; nothing if p = q."""
-        start, end = np.asarray(p, dtype=float), np.asarray(q, dtype=float)
+        start, end = numbers(p), numbers(q)
         neck = end - min(head_len, norm(end - start)) * normalize(end - start)
         self._between(geometry.cylinder(), start, neck, r_base)
         self._between(geometry.cone(), neck, end, head_width)
@@ -128,7 +128,7 @@ class Renderer(FlatRenderer):
 
         `r_base_` is a radius, m, for rods in place of lines.
         """
-        middle = np.asarray(pos, dtype=float)
+        middle, r = numbers(pos), number(r)
         GL.glPushAttrib(GL.GL_CURRENT_BIT)
         for axis in np.eye(3):
             if rgb:
@@ -141,19 +141,19 @@ class Renderer(FlatRenderer):
         GL.glPopAttrib()
 
     def _between(self, mesh: Mesh, p: ArrayLike, q: ArrayLike, radius: float) -> None:
-        start, end = np.asarray(p, dtype=float), np.asarray(q, dtype=float)
+        start, end = numbers(p), numbers(q)
         if (length := norm(end - start)) > 0.0:
             self._solid(mesh, between(start, end), (radius, radius, length))
 
     def _solid(self, mesh: Mesh, pose: Array, size: ArrayLike) -> None:
         GL.glPushMatrix()
         GL.glMultMatrixd(pose.T.copy())
-        GL.glScaled(*np.asarray(size, dtype=float))
+        GL.glScaled(*numbers(size))
         drawing.renderer().draw_fixed(mesh)
         GL.glPopMatrix()
 
 
 def _at(position: ArrayLike) -> Array:
     pose = np.eye(4)
-    pose[:3, 3] = position
+    pose[:3, 3] = numbers(position)
     return pose

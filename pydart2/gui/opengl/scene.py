@@ -139,12 +139,12 @@ class OpenGLScene:
         if self.window is not None and hasattr(self.window, "add_camera_event"):
             self.window.add_camera_event(self, trackball, name)
 
-    def set_camera(self, idx: int) -> None:
+    def set_camera(self, camera_index: int) -> None:
         """Use a camera; IndexError if there is none of that number."""
-        if not 0 <= idx < len(self.cameras):
-            raise IndexError(f"no camera {idx}; there are {len(self.cameras)}, counted from 0")
-        print(f"set_camera: {idx}")
-        self.tb = self.cameras[idx]
+        if not 0 <= camera_index < len(self.cameras):
+            raise IndexError(f"no camera {camera_index}; there are {len(self.cameras)}, counted from 0")
+        print(f"set_camera: {camera_index}")
+        self.tb = self.cameras[camera_index]
 
     def _set_up_fixed_pipeline(self) -> None:
         """The lights and the state that user code finds in `render_with_ri` when it calls OpenGL itself."""

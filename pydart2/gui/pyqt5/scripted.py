@@ -92,9 +92,9 @@ class Scripted(QMainWindow):
         """How many cameras there are."""
         return self.scene.num_cameras()
 
-    def replace_camera(self, idx: int, tb: Trackball) -> bool:
+    def replace_camera(self, idx: int, trackball: Trackball) -> bool:
         """Put another trackball in a camera's place; False if there is no such camera."""
-        return self.scene.replace_camera(idx, tb)
+        return self.scene.replace_camera(idx, trackball)
 
     def add_camera(self, trackball: Trackball, name: str | None = None) -> None:
         """Add a camera, and its name to the menu."""
@@ -127,19 +127,19 @@ class Scripted(QMainWindow):
         """While playing, every n-th frame is captured."""
         return self._capture_rate
 
-    def set_capture_rate(self, n: int) -> None:
+    def set_capture_rate(self, _capture_rate: int) -> None:
         """Capture every n-th frame while playing."""
-        if n < 1:
-            raise ValueError(f"the capture rate is a number of frames, at least 1, not {n}")
-        self._capture_rate = int(n)
+        if _capture_rate < 1:
+            raise ValueError(f"the capture rate is a number of frames, at least 1, not {_capture_rate}")
+        self._capture_rate = int(_capture_rate)
 
     def capture_dir(self) -> str:
         """Folder of the pictures, made when needed."""
         return self.captures.path
 
-    def set_capture_dir(self, path: str | os.PathLike[str]) -> None:
+    def set_capture_dir(self, _capture_dir: str | os.PathLike[str]) -> None:
         """Set the folder of the pictures."""
-        self.captures = CaptureFolder(path)
+        self.captures = CaptureFolder(_capture_dir)
 
     def prob_name(self) -> str:
         """What the simulation is called, `robot` if it does not say."""

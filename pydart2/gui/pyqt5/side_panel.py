@@ -228,9 +228,9 @@ class SidePanel:
             raise NameNotFound("widget", name, "the side panel", self.widgets)
         return self.widgets[name]
 
-    def set_text(self, name: str, text: str) -> None:
+    def set_text(self, name: str, label: str) -> None:
         """Set the text of a label, button or check box."""
-        self._widget(name).setText(text)
+        self._widget(name).setText(label)
 
     def value(self, name: str) -> Any:
         """The number of a spin box, the index of a combo box, whether a button is down."""
@@ -239,23 +239,23 @@ class SidePanel:
             return widget.currentIndex()
         return widget.isChecked() if isinstance(widget, QAbstractButton) else widget.value()
 
-    def set_value(self, name: str, v: Any) -> None:
+    def set_value(self, name: str, value: Any) -> None:
         """Set what value() returns."""
         widget = self._widget(name)
         if isinstance(widget, QComboBox):
-            widget.setCurrentIndex(v)
+            widget.setCurrentIndex(value)
         elif isinstance(widget, QAbstractButton):
-            widget.setChecked(v)
+            widget.setChecked(value)
         else:
-            widget.setValue(v)
+            widget.setValue(value)
 
     def is_checked(self, name: str) -> bool:
         """Whether a button is down or a box ticked."""
         return bool(self._widget(name).isChecked())
 
-    def set_checked(self, name: str, v: bool) -> None:
+    def set_checked(self, name: str, value: bool) -> None:
         """Put a button down or tick a box."""
-        self._widget(name).setChecked(v)
+        self._widget(name).setChecked(value)
 
     def set_enabled(self, name: str, enabled: bool = True) -> None:
         """Let a widget take input or not."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 import logging
 import os
 import sys
-from typing import Any
+from signal import SIGINT
+from types import FrameType
+from typing import Any, ClassVar
 
 from PyQt5.QtCore import QSize, Qt, QTimer
 from PyQt5.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent
@@ -26,6 +28,12 @@ from pydart2.gui.runtime import Runtime
 SECONDS = "PYDART2_VIEWER_SECONDS"
 _PICTURE_SIZE = (1280, 720)
 _ACTIVE_MS, _PAUSED_MS = 33, 250  # between two pictures
+
+
+def signal_handler(signal: int, frame: FrameType | None) -> None:
+    """End the process, for ``signal.signal(signal.SIGINT, signal_handler)`` in old scripts; windows do without."""
+    print("You pressed Ctrl+C!" if signal == SIGINT else f"Signal {signal}")
+    sys.exit(0)
 
 
 class PyQt5Window(Scripted):
@@ -62,6 +70,9 @@ class PyQt5Window(Scripted):
     NoDisplayError
         If there is no display.
     """
+
+    #: Of the original, which drew its text by GLUT; it stays False.
+    GLUT_INITED: ClassVar[bool] = False
 
     def __init__(self, sim: Any = None, title: str | None = None) -> None:
         title = "Simulation Viewer" if title is None else title

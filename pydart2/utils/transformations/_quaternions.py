@@ -67,31 +67,31 @@ def quaternion_from_matrix(matrix: ArrayLike, isprecise: bool = False) -> Array:
     return _upper(from_scipy(Rotation.from_matrix(part)))
 
 
-def quaternion_multiply(q1: ArrayLike, q0: ArrayLike) -> Array:
-    """The product of two quaternions [w, x, y, z], shape (4,): the rotation q0 and then q1."""
-    second, first = _four(q1), _four(q0)
+def quaternion_multiply(quaternion1: ArrayLike, quaternion0: ArrayLike) -> Array:
+    """The product of two quaternions [w, x, y, z], shape (4,): the rotation quaternion0 and then quaternion1."""
+    second, first = _four(quaternion1), _four(quaternion0)
     w1, v1, w0, v0 = second[0], second[1:], first[0], first[1:]
     return np.array([w1 * w0 - v1 @ v0, *(w1 * v0 + w0 * v1 + np.cross(v1, v0))])
 
 
-def quaternion_conjugate(q: ArrayLike) -> Array:
+def quaternion_conjugate(quaternion: ArrayLike) -> Array:
     """[w, -x, -y, -z], shape (4,); of a unit quaternion it is the inverse."""
-    return _four(q) * (1.0, -1.0, -1.0, -1.0)
+    return _four(quaternion) * (1.0, -1.0, -1.0, -1.0)
 
 
-def quaternion_inverse(q: ArrayLike) -> Array:
-    """The quaternion [w, x, y, z] whose product with `q` is 1, shape (4,); ValueError if `q` is zero."""
-    return quaternion_conjugate(_unit(q)) / float(np.linalg.norm(_four(q)))
+def quaternion_inverse(quaternion: ArrayLike) -> Array:
+    """The quaternion [w, x, y, z] whose product with another is 1, shape (4,); ValueError if that is zero."""
+    return quaternion_conjugate(_unit(quaternion)) / float(np.linalg.norm(_four(quaternion)))
 
 
-def quaternion_real(q: ArrayLike) -> float:
+def quaternion_real(quaternion: ArrayLike) -> float:
     """w of [w, x, y, z]."""
-    return float(_four(q)[0])
+    return float(_four(quaternion)[0])
 
 
-def quaternion_imag(q: ArrayLike) -> Array:
+def quaternion_imag(quaternion: ArrayLike) -> Array:
     """[x, y, z] of [w, x, y, z], shape (3,)."""
-    return _four(q)[1:]
+    return _four(quaternion)[1:]
 
 
 def quaternion_slerp(

@@ -11,8 +11,10 @@ Array: TypeAlias = NDArray[np.float64]
 
 
 def vector3(x: ArrayLike, name: str) -> Array:
-    """The first three numbers of a vector of shape (3,) or (4,)."""
+    """The first three numbers of a vector of shape (3,) or (4,), which may stand in a column."""
     vector = np.array(x, dtype=float)
+    if vector.ndim == 2 and vector.shape[1] == 1:
+        vector = vector[:, 0]
     if vector.shape not in ((3,), (4,)):
         raise ValueError(f"{name}: shape (3,) or (4,) expected, got {vector.shape}")
     return vector[:3]
