@@ -63,6 +63,10 @@ class BodyNode(Frame, BodyBuilding):
         self.shapenodes: list[ShapeNode] = []
         self._arrows: list[tuple[int, NDArray[np.float64], NDArray[np.float64]]] = []
 
+    def _take(self, other: BodyNode) -> None:
+        """Be the part that a new object is for: the tree has changed, and the old handle is refused."""
+        self._id, self._handle = other._id, other._handle
+
     def build(self) -> None:
         """Link to the other parts of the skeleton."""
         skel, handle = self.skeleton, self._handle
@@ -72,7 +76,9 @@ class BodyNode(Frame, BodyBuilding):
         self.parent_joint = skel.joints[handle.parent_joint()]
         self.child_joints = [skel.joints[handle.child_joint(i)] for i in range(self.num_child_joints())]
         self.dependent_dofs = [skel.dofs[handle.dependent_dof(i)] for i in range(self.num_dependent_dofs())]
-        self.shapenodes = [ShapeNode(self, i) for i in range(self.num_shapenodes())]
+        before = {node.name: node for node in self.shapenodes}
+        nodes = [ShapeNode(self, i) for i in range(self.num_shapenodes())]
+        self.shapenodes = [before[node.name]._take(node) if node.name in before else node for node in nodes]
         self.markers = []  # each marker adds itself
 
     @property

@@ -31,6 +31,10 @@ class Dof:
         self._handle = _skeleton._handle.dof(_id)
         self.name = self._handle.name()
 
+    def _take(self, other: Dof) -> None:
+        """Be the part that a new object is for: the tree has changed, and the old handle is refused."""
+        self.id, self._handle = other.id, other._handle
+
     @property
     def skel(self) -> Skeleton:
         """The skeleton."""

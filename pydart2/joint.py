@@ -51,6 +51,10 @@ class Joint:
         self._handle = _skeleton._handle.joint(_id)
         self.name = self._handle.name()
 
+    def _take(self, other: Joint) -> None:
+        """Be the part that a new object is for: the tree has changed, and the old handle is refused."""
+        self.id, self._handle = other.id, other._handle
+
     def build(self) -> None:
         """Link to the bodies and dofs."""
         bodies = self.skeleton.bodynodes

@@ -40,6 +40,15 @@ class ShapeNode:
         self.name = self._handle.name()
         self.shape: Shape | None = create_shape(self)
 
+    def _take(self, other: ShapeNode) -> ShapeNode:
+        """Be the node that a new object is for: the tree has changed, and the old handles are refused."""
+        self.id, self._handle = other.id, other._handle
+        if self.shape is not None and other.shape is not None:
+            self.shape._handle = other.shape._handle
+        else:
+            self.shape = other.shape
+        return self
+
     def build(self) -> None:
         """Nothing to do; kept for callers of the original."""
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import spd
 from pydart2.bodynode import BodyNode
-from pydart2.building.skeletons import SkeletonBuilding
+from pydart2.building.short_forms import ShortForms
 from pydart2.dof import Dof
 from pydart2.dynamics import Dynamics
 from pydart2.errors import DestroyedError, NameNotFound
@@ -35,6 +35,15 @@ _PARTS = ("dofs", "joints", "bodynodes", "markers", "name_to_dof", "name_to_join
 _BUILT = frozenset(("world", "id", "_handle", "_pattern", *_PARTS))
 
 
+def _kept(before: dict[str, Part], now: Part) -> Part:
+    """The object that there was for this part of the engine's, taken again; `now` itself if there was none."""
+    old = before.get(now.name)
+    if old is None or type(old) is not type(now):
+        return now
+    old._take(now)
+    return old
+
+
 class HasCompute(Protocol):
     """What a skeleton's controller must have, if it is not a function."""
 
@@ -54,7 +63,7 @@ def _compute_of(controller: Controller) -> Callable[[], ArrayLike]:
     return compute
 
 
-class Skeleton(Dynamics, SkeletonBuilding):
+class Skeleton(Dynamics, ShortForms):
     """A robot or another articulated body, in a world.
 
     ``q``, ``dq``, ``ddq`` are copies: change one and assign it back, or write by name with ``set_positions``::
@@ -118,11 +127,16 @@ class Skeleton(Dynamics, SkeletonBuilding):
         return part_of, (self.world, "skeletons", self.id), kept
 
     def build(self) -> None:
-        """Make all dofs, joints, bodies and markers anew; those made before may no longer be used."""
+        """Look at the tree again: what is still there stays the same object, with its new index; the rest is made."""
         handle = self._handle = self.world._handle.skeleton(self.id)
-        self.dofs = [Dof(self, i) for i in range(handle.num_dofs())]
-        self.joints = [create_joint(self, i) for i in range(handle.num_joints())]
-        self.bodynodes = [self._make_body(i) for i in range(handle.num_bodynodes())]
+        joints: dict[str, Joint] = getattr(self, "name_to_joint", {})
+        bodies: dict[str, BodyNode] = getattr(self, "name_to_body", {})
+        dofs = {dof.name: dof for joint in joints.values() for dof in joint.dofs if dof.joint is joint}
+        self.joints = [_kept(joints, create_joint(self, i)) for i in range(handle.num_joints())]
+        kept = set(map(id, self.joints))
+        dofs = {name: dof for name, dof in dofs.items() if id(dof.joint) in kept}
+        self.dofs = [_kept(dofs, Dof(self, i)) for i in range(handle.num_dofs())]
+        self.bodynodes = [_kept(bodies, self._make_body(i)) for i in range(handle.num_bodynodes())]
         self.markers = [Marker(self, i) for i in range(handle.num_markers())]
         self._refresh_names()
         for parts in (self.joints, self.bodynodes, self.markers):

@@ -363,7 +363,15 @@ class World(WorldBuilding):
         blueprint = self._handle.blueprint()
         recording_limit = self._handle.recording_limit() if self.is_recording() else None
         classes = [type(skel) for skel in self.skeletons]
-        made_anew = ("_handle", "_step", "id", "recording", "collision_result", "collision_filter")
+        made_anew = (
+            "_handle",
+            "_step",
+            "id",
+            "recording",
+            "collision_result",
+            "collision_filter",
+            "_under_construction",
+        )
         state = {name: value for name, value in self.__dict__.items() if name not in made_anew}
         return _rebuild, (type(self), blueprint, self.collision_result.rows, recording_limit, classes), state
 

@@ -131,6 +131,15 @@ class SkeletonBuilding:
             body.add_mass(mass, com, inertia)
         return body
 
+    def remove_body(self, body: BodyNode | str | int) -> None:
+        """Take a body away with its joint and all that hangs from it; they can no longer be used.
+
+        Others stay valid, and get new indices. ValueError if a joint that stays follows one that goes, or a constraint
+        holds the skeleton.
+        """
+        self._handle.remove_body(self._parent_index(body))
+        self.build()
+
     def _parent_index(self, parent: BodyNode | str | int) -> int:
         body = self.body(parent) if isinstance(parent, (str, int, np.integer)) else parent
         if body.skeleton is not self:

@@ -50,14 +50,17 @@ class WorldBuilding:
     """The part of World that adds to it without files."""
 
     _handle: WorldHandle
+    _under_construction: Skeleton | None = None
 
     if TYPE_CHECKING:  # what World has
+        skeletons: list[Skeleton]
 
         def add_skeleton_from_id(self, _skel_id: int) -> Skeleton: ...
 
     def add_empty_skeleton(self, name: str = "skeleton") -> Skeleton:
         """Add a skeleton without bodies, for `Skeleton.add_body`. If the name is taken, a number is added to it."""
-        return self.add_skeleton_from_id(self._handle.add_empty_skeleton(name))
+        self._under_construction = self.add_skeleton_from_id(self._handle.add_empty_skeleton(name))
+        return self._under_construction
 
     def add_ground(
         self,
@@ -126,10 +129,51 @@ class WorldBuilding:
         length: float,
         mass: float | None = None,
         position: ArrayLike = (0.0, 0.0, 0.0),
+        *,
+        parent: int | None = None,
+        joint_loc: ArrayLike | None = None,
+        cap_rot: ArrayLike = (0.0, 0.0, 0.0),
+        cap_offset: ArrayLike = (0.0, 0.0, 0.0),
+        joint_type: str = "BALL",
+        joint_name: str = "",
         **options: Unpack[BodyOptions],
     ) -> Skeleton:
-        """Add a free capsule along its z, `length` without round ends, at a position of shape (3,), m; as add_box()."""
-        return self._add_single(solids.capsule(radius, length), mass, position, {"name": "capsule", **options})
+        """Add a free capsule along its z, `length` without round ends, at a position of shape (3,), m; as add_box().
+
+        With `parent` or `joint_loc` it is a body of the skeleton that add_empty_skeleton() made last, as
+        `Skeleton.add_capsule`; that skeleton is returned.
+        """
+        if parent is None and joint_loc is None:
+            return self._add_single(solids.capsule(radius, length), mass, position, {"name": "capsule", **options})
+        skel = self.add_built_skeleton()
+        where = (0.0, 0.0, 0.0) if joint_loc is None else joint_loc
+        skel.add_capsule(parent, radius, length, cap_rot, cap_offset, where, joint_type, joint_name)
+        return skel
+
+    def add_weld_box(
+        self,
+        width: float,
+        length: float,
+        height: float,
+        joint_loc: ArrayLike = (0.0, 0.0, 0.0),
+        box_rot: ArrayLike = (0.0, 0.0, 0.0),
+        joint_name: str = "",
+    ) -> Skeleton:
+        """Add a welded box at `joint_loc`, shape (3,), m, to the skeleton that add_empty_skeleton() made last.
+
+        As `Skeleton.add_weld_box`; the skeleton is returned.
+        """
+        skel = self.add_built_skeleton()
+        skel.add_weld_box(width, length, height, joint_loc, box_rot, joint_name)
+        return skel
+
+    def add_built_skeleton(self, _skel_id: int | None = None, _skel_name: str = "") -> Skeleton:
+        """The skeleton that add_empty_skeleton() made last; in the world since then. The arguments say nothing."""
+        self._handle.time()  # a world that is gone says so
+        skel = self._under_construction
+        if skel is None or skel not in self.skeletons:
+            raise ValueError("no skeleton is under construction: call add_empty_skeleton() first")
+        return skel
 
     def add_cylinder(
         self,

@@ -39,7 +39,9 @@ def worst_errors(model: Any, built: Any, world: Any, seed: int = 0) -> tuple[flo
             ours = skel.mass_matrix(None)
             bias = S.T @ (skel.coriolis_and_gravity_forces(None) + ours @ rate_of_map(coordinates, S, data.qvel) @ v)
             errors[0] = max(errors[0], np.abs(S.T @ ours @ S - M[:n, :n])[np.ix_(mine, mine)].max() / np.abs(M).max())
-            errors[1] = max(errors[1], np.abs(bias - data.qfrc_bias[:n])[mine].max() / np.abs(data.qfrc_bias).max())
+            errors[1] = max(
+                errors[1], np.abs(bias - data.qfrc_bias[:n])[mine].max() / (np.abs(data.qfrc_bias).max() or 1.0)
+            )
             for body, (where, node) in built.places.items():
                 if where == index:
                     error = np.abs(skel.bodynode(node).to_world(None) - data.xpos[body]).max()

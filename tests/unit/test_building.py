@@ -325,3 +325,106 @@ def test_a_name_that_is_taken_is_refused() -> None:
         skel.add_body("a")
     with pytest.raises(pydart.errors.NameNotFound):
         skel.add_body("b", "c")
+
+
+# Changing what there is
+
+
+def test_parts_that_stay_are_the_same_objects() -> None:
+    world = pydart.World(0.001)
+    skel = arm(world)
+    kept = {name: (skel.body(name), skel.body(name).parent_joint) for name in ("b0", "b9", "b10")}
+    dof, gone = skel.joint("b0_joint").dofs[0], skel.body("b5")
+    side = skel.add_body("side", "b0", "revolute", mass=1.0, inertia=np.eye(3))
+    skel.remove_body("b4")
+    assert [body.name for body in skel.bodynodes] == ["b0", "b1", "b2", "b3", "side"]
+    assert skel.body("b0") is kept["b0"][0]
+    assert skel.body("b0").parent_joint is kept["b0"][1]
+    assert skel.dofs[0] is dof
+    assert side.id == 4
+    assert side.parent_bodynode is skel.body("b0")
+    assert dof.position() == 0.0
+    for part in (gone, kept["b9"][0], kept["b9"][1]):
+        with pytest.raises(pydart.errors.DestroyedError):
+            part._handle.name()
+    world.step()
+    assert world.clone().skeletons[0].ndofs == skel.ndofs == 7
+
+
+def test_what_is_left_equals_what_was_built_so() -> None:
+    """M and c, bit for bit, after bodies have come and gone."""
+    world = pydart.World(0.001)
+    changed, plain = world.add_empty_skeleton("changed"), world.add_empty_skeleton("plain")
+
+    def add(skel: pydart.Skeleton, name: str, parent: str | None) -> None:
+        inertia = np.diag([0.1, 0.2, 0.25])
+        skel.add_body(name, parent, "ball" if parent else "free", position=(0.1, 0.2, 0.3), mass=1.5, inertia=inertia)
+
+    for name, parent in (("a", None), ("b", "a"), ("x", "a"), ("y", "x"), ("c", "b")):
+        add(changed, name, parent)
+    changed.remove_body("x")
+    for name, parent in (("a", None), ("b", "a"), ("c", "b")):
+        add(plain, name, parent)
+    rng = np.random.default_rng(3)
+    changed.q = plain.q = rng.normal(size=12)
+    changed.dq = plain.dq = rng.normal(size=12)
+    assert np.array_equal(changed.M, plain.M)
+    assert np.array_equal(changed.c, plain.c)
+
+
+def test_a_body_that_others_need_stays() -> None:
+    world = pydart.World(0.001)
+    skel = world.add_empty_skeleton()
+    for name in ("a", "b"):
+        skel.add_body(name, joint="revolute", mass=1.0, inertia=np.eye(3))
+    skel.joint("b_joint").set_mimic(skel.joint("a_joint"))
+    with pytest.raises(ValueError, match="follows"):
+        skel.remove_body("a")
+    skel.remove_body("b")
+    skel.remove_body("a")
+    assert skel.ndofs == 0
+    world.step()
+
+
+@pytest.mark.parametrize("detector", ["dart", "fcl", "bullet", "ode", "native"])
+def test_shapes_and_bodies_that_are_gone_do_not_collide(detector: str) -> None:
+    world = pydart.World(0.001)
+    world.set_collision_detector(detector)
+    world.add_ground()
+    skel = world.add_empty_skeleton()
+    body = skel.add_body("a", position=(0, 0.45, 0))
+    body.add_sphere(0.3)
+    low = body.add_box((1, 1, 1))
+    skel.add_body("b", "a", position=(0.9, 0, 0)).add_box((1, 1, 1))
+    world.collision_filter.add_to_black_list(skel.body("b"), world.skeletons[0].body(0))
+    world.step(3)
+    assert len(world.collision_result.contacts) > 0
+    skel.remove_body("b")
+    world.step(3)
+    assert len(world.collision_result.contacts) > 0
+    body.remove_shape(low)
+    world.step(3)
+    assert len(world.collision_result.contacts) == 0
+    world.clone().step()
+
+
+def test_short_forms_of_a_fork() -> None:
+    world = pydart.World(0.001)
+    world.add_empty_skeleton("man")
+    world.add_capsule(parent=-1, radius=0.1, length=0.4, joint_loc=[0, 1, 0], joint_type="FREE", joint_name="root")
+    world.add_capsule(
+        parent=0, radius=0.05, length=0.3, cap_rot=[np.pi / 2, 0, 0], cap_offset=[0, 0, 0.2], joint_loc=[0, 0, 0.2],
+        joint_type="REVOLUTE_Y", joint_name="neck",
+    )  # fmt: skip
+    world.add_weld_box(1.0, 2.0, 0.1, joint_loc=[0, -1, 0])
+    man = world.add_built_skeleton(_skel_id=0, _skel_name="man")
+    assert [joint.name for joint in man.joints] == ["root", "neck", "body2"]
+    assert man.ndofs == 7
+    assert man.joint("neck").axis() == pytest.approx([0, 1, 0])
+    assert pytest.approx([0, 1, 0.4]) == man.body(1).C
+    assert man.body(2).shapenodes[0].shape.size() == pytest.approx([1, 2, 0.1])
+    assert isinstance(world.add_capsule(0.1, 0.2, position=(3, 0, 0)), pydart.Skeleton)
+    with pytest.raises(ValueError, match="REVOLUTE_Q"):
+        world.add_capsule(parent=0, radius=1, length=1, joint_type="REVOLUTE_Q")
+    with pytest.raises(ValueError, match="add_empty_skeleton"):
+        pydart.World(0.001).add_built_skeleton()

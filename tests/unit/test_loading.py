@@ -100,7 +100,7 @@ def test_a_world_is_no_skeleton() -> None:
     assert "is a world; load it with World(step, file)" in str(refusal(SKEL_WORLD))
     two = MJCF.replace("</worldbody>", "<body name='n'><geom type='sphere' size='1'/></body></worldbody>")
     assert "a world of several skeletons" in str(refusal(two))
-    assert len(World(0.001, two).skeletons) == 2
+    assert len(World(0.001, two, reader="engine").skeletons) == 2
 
 
 def test_uris(world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

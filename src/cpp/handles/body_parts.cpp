@@ -1,7 +1,9 @@
 // What a BodyNodeHandle adds to a body: shapes, markers, mass.
 #include <cmath>
+#include <dart/constraint/ConstraintSolver.hpp>
 
 #include "base/checks.hpp"
+#include "collision/detector.hpp"
 #include "handles/bodynode.hpp"
 #include "loading/built.hpp"
 #include "state/clone.hpp"
@@ -93,7 +95,11 @@ void BodyNodeHandle::remove_shape(long index)
   auto& body = *body_;
   const auto i = check::index(index, body.getNumShapeNodes(), "shape node");
   mark_built(*body_.world, *body_.skeleton);
+  const auto lock = lock_ode();
+  auto& solver = *body_.world->world->getConstraintSolver();
+  solver.clearLastCollisionResult(); // it points to the shape
   body.getShapeNodes()[i]->remove();
+  use_detector(solver, solver.getCollisionDetector());
 }
 
 int BodyNodeHandle::add_marker(const std::string& name, const Eigen::Vector3d& position)

@@ -1,8 +1,11 @@
 #include "handles/skeleton.hpp"
 
 #include <algorithm>
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <set>
 
 #include "base/checks.hpp"
+#include "collision/detector.hpp"
 #include "loading/built.hpp"
 #include "loading/root_joint.hpp"
 #include "state/clone.hpp"
@@ -13,6 +16,17 @@ using dart::dynamics::DegreeOfFreedom;
 using dart::dynamics::Joint;
 
 namespace {
+
+/// Takes what is about to go out of what the world keeps of bodies and dofs.
+void forget_bodies(WorldRecord& world, SkeletonRecord& skeleton, const std::set<const dart::dynamics::BodyNode*>& gone)
+{
+  auto& pairs = world.ignored_pairs;
+  const auto has_gone = [&](const auto& pair) { return gone.count(pair.first) + gone.count(pair.second) != 0; };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), has_gone), pairs.end());
+  apply_ignored_pairs(world);
+  for (auto one = skeleton.armature.begin(); one != skeleton.armature.end();)
+    one = gone.count(one->first->getChildBodyNode()) != 0 ? skeleton.armature.erase(one) : std::next(one);
+}
 
 void copy(const Eigen::VectorXd& values, Output& out)
 {
@@ -474,6 +488,33 @@ int SkeletonHandle::add_body(
   const auto& body = built::add_body(skel, above, name, joint);
   skeleton_.world->tree_changed(*skeleton_.skeleton);
   return static_cast<int>(body.getIndexInSkeleton());
+}
+
+void SkeletonHandle::remove_body(long index)
+{
+  auto& skel = skeleton();
+  auto* first = skel.getBodyNode(check::index(index, skel.getNumBodyNodes(), "body"));
+  check_tree_can_change("remove_body()");
+  std::set<const dart::dynamics::BodyNode*> gone{first};
+  for (auto* body : skel.getBodyNodes()) // parents come first
+    if (gone.count(body->getParentBodyNode()) != 0)
+      gone.insert(body);
+  for (const auto* joint : skel.getJoints())
+    if (const auto* leader = joint->getMimicJoint())
+      if (gone.count(joint->getChildBodyNode()) == 0 && gone.count(leader->getChildBodyNode()) != 0)
+        throw Error(
+            Kind::value,
+            "joint '" + joint->getName() + "' follows joint '" + leader->getName() + "', which would go with body '"
+                + first->getName() + "'");
+  auto& world = *skeleton_.world;
+  mark_built(world, *skeleton_.skeleton);
+  forget_bodies(world, *skeleton_.skeleton, gone);
+  const auto lock = lock_ode();
+  auto& solver = *world.world->getConstraintSolver();
+  solver.clearLastCollisionResult(); // it points to shapes that go
+  first->remove();
+  use_detector(solver, solver.getCollisionDetector());
+  world.tree_changed(*skeleton_.skeleton);
 }
 
 void SkeletonHandle::check_new_name(const std::string& name, bool taken, const char* what) const

@@ -104,6 +104,9 @@ public:
   /// axes are rows, as many as the type has. Every handle into this skeleton must be taken again.
   int add_body(long parent, const std::string& name, const std::string& joint_type, const std::string& joint_name, const MatrixIn& axes);
 
+  /// Takes a body away, with all that hangs from it. Every handle into this skeleton must be taken again.
+  void remove_body(long index);
+
 private:
   dart::dynamics::Skeleton& skeleton() const { return *skeleton_; }
   dart::dynamics::Skeleton& with_mass() const;
