@@ -248,3 +248,41 @@ def test_filters(tmp_path: Path) -> None:
     assert not contacts_of(world)
     world.collision_filter.remove_from_black_list(a, b)
     assert contacts_of(world)
+
+
+def test_what_the_engine_lets_collide(tmp_path: Path) -> None:
+    """Fixed, not collidable, of one skeleton or neighbors in it: the same pairs as with the engine's own detector."""
+    ball, rng = sphere(0.5), np.random.default_rng(7)
+    chain = [body(f"link{i}", at=(0, 0.1 * i, 0, 0, 0, 0), shape=ball) for i in range(3)]
+    joints = [
+        joint("revolute", f"link{i}", f"link{i - 1}" if i else "world", axis=(0, 0, 1), name=f"j{i}") for i in range(3)
+    ]
+    others = [free_body(name, at=(0.1, y, 0.2, 0, 0, 0), shape=ball) for name, y in (("a", -0.1), ("b", 0.25))]
+    world = make_world(tmp_path, skeleton(*chain, *joints, name="chain"), *others)
+    seen = set()
+    for _ in range(40):
+        for skel in world.skeletons:
+            skel.set_mobile(bool(rng.integers(2)))
+            for each in skel.bodynodes:
+                each.set_collidable(bool(rng.integers(4)))
+        chained = world.skeletons[0]
+        chained.set_self_collision_check(bool(rng.integers(2)))
+        chained.set_adjacent_body_check(bool(rng.integers(2)))
+        pairs = []
+        for name in ("dart", "native"):
+            world.set_collision_detector(name)
+            rows = [(c.bodynode1, c.bodynode2) for c in contacts_of(world)]
+            pairs.append({frozenset((one.skel.name, one.name) for one in both) for both in rows})
+        assert pairs[0] == pairs[1]
+        seen |= pairs[0]
+    assert len(seen) == 10
+
+
+def test_batches_keep_the_detector(tmp_path: Path) -> None:
+    world = heap(tmp_path)
+    batch = pydart2.Batch(world, 2, threads=2)
+    batch.step(300)
+    world.step(300)
+    for each in batch.worlds:
+        assert each.collision_detector_string() == "NATIVE_COLLISION_DETECTOR"
+        assert each.x.tobytes() == world.x.tobytes()
