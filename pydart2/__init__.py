@@ -15,6 +15,7 @@ from pydart2.batch import Batch
 from pydart2.bodynode import BodyNode
 from pydart2.collision_result import CollisionResult
 from pydart2.contact import Contact
+from pydart2.contact_forces import Contacts
 from pydart2.dof import Dof
 from pydart2.engine import EngineInfo, engine_info
 from pydart2.errors import DestroyedError, LoadError, NameNotFound, PydartError, SimulationError
@@ -68,6 +69,7 @@ __all__ = [
     "BodyNode",
     "CollisionResult",
     "Contact",
+    "Contacts",
     "DestroyedError",
     "Dof",
     "EngineInfo",

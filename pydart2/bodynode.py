@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2 import contact_forces
 from pydart2.building.bodies import BodyBuilding
 from pydart2.frames import Frame
 from pydart2.shapenode import ShapeNode
@@ -313,6 +314,17 @@ class BodyNode(Frame, BodyBuilding):
     def angular_momentum(self) -> NDArray[np.float64]:
         """Angular momentum about the body's origin as the engine gives it, body coordinates, shape (3,), kg m²/s."""
         return self._handle.angular_momentum()
+
+    # Contacts of the last step
+
+    @property
+    def contacts(self) -> contact_forces.Contacts:
+        """Its contacts, with points, forces on it, normals and depths as arrays."""
+        return contact_forces.of_body(self)
+
+    def contact_force(self) -> NDArray[np.float64]:
+        """The sum of the contact forces on it, world frame, shape (3,), N."""
+        return self.contacts.force
 
     # External forces: they act in the next step only
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2 import spd
+from pydart2 import contact_forces, spd
 from pydart2.bodynode import BodyNode
 from pydart2.building.short_forms import ShortForms
 from pydart2.dof import Dof
@@ -518,6 +518,11 @@ class Skeleton(Dynamics, ShortForms):
     def update_fk(self) -> None:
         """Compute all poses, velocities and accelerations now; without it each is computed when it is read."""
         self._handle.update_fk()
+
+    @property
+    def contacts(self) -> contact_forces.Contacts:
+        """Its contacts of the last step as arrays; those between its own bodies are there from both sides."""
+        return contact_forces.of_skeleton(self)
 
     # Inverse kinematics (inverse_kinematics.py)
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2 import manager
+from pydart2 import contact_forces, manager
 from pydart2._native import WorldHandle
 from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
@@ -22,6 +22,7 @@ from pydart2.skeleton import Skeleton, _compute_of
 from pydart2.state import Snapshot, model_hash
 
 if TYPE_CHECKING:
+    from pydart2.bodynode import BodyNode
     from pydart2.loading import Missing, Reader, Source
 
 _log = logging.getLogger("pydart2")
@@ -297,6 +298,15 @@ class World(WorldBuilding):
         """Find the contacts and their forces for the present state, without a step."""
         self._handle.check_collision()
         self.collision_result.update()
+
+    @property
+    def contacts(self) -> contact_forces.Contacts:
+        """All contacts of the last step as arrays, from the side of the first body of each."""
+        return contact_forces.of_world(self)
+
+    def contacts_between(self, a: BodyNode | Skeleton, b: BodyNode | Skeleton) -> contact_forces.Contacts:
+        """The contacts of two bodies or skeletons in the last step as arrays, from the side of `a`."""
+        return contact_forces.between(a, b)
 
     def states(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,), rad, m, rad/s and m/s."""

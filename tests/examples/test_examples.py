@@ -27,6 +27,7 @@ CLAIMS = {
     "biped_stand": 3,
     "chain": 1,
     "contacts": 4,
+    "foot_forces": 2,
     "gravity_compensation": 1,
     "headless_video": 2,
     "hello_pydart": 1,
