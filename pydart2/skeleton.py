@@ -21,6 +21,7 @@ from pydart2.marker import Marker
 from pydart2.skel_vector import SkelVector
 from pydart2.softbody import SoftBodyNode
 from pydart2.state import part_of
+from pydart2.targets import TargetControl
 
 if TYPE_CHECKING:
     import os
@@ -63,7 +64,7 @@ def _compute_of(controller: Controller) -> Callable[[], ArrayLike]:
     return compute
 
 
-class Skeleton(Dynamics, ShortForms):
+class Skeleton(Dynamics, TargetControl, ShortForms):
     """A robot or another articulated body, in a world.
 
     ``q``, ``dq``, ``ddq`` are copies: change one and assign it back, or write by name with ``set_positions``::

@@ -34,6 +34,7 @@
 %include "bodynode.i"
 %include "dynamics.i"
 %include "inverse_kinematics.i"
+%include "targets.i"
 %include "skeleton.i"
 %include "model_source.i"
 %include "world.i"

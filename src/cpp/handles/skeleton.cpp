@@ -179,6 +179,11 @@ InverseKinematicsHandle SkeletonHandle::inverse_kinematics() const
   return {skeleton_.world, skeleton_.skeleton};
 }
 
+TargetsHandle SkeletonHandle::targets() const
+{
+  return {skeleton_.world, skeleton_.skeleton};
+}
+
 std::vector<std::string> SkeletonHandle::dof_names() const
 {
   skeleton_.get();
@@ -431,6 +436,10 @@ void SkeletonHandle::check_root_can_change(const char* what) const
 
 void SkeletonHandle::check_tree_can_change(const char* what) const
 {
+  if (skeleton_.skeleton->motors.targets())
+    throw Error(
+        Kind::value,
+        std::string(what) + " cannot change skeleton '" + name() + "' while its dofs have targets; call clear_targets() first");
   for (const auto& record : skeleton_.world->constraints)
     if (record.skeleton1 == skeleton_.skeleton->skeleton || record.skeleton2 == skeleton_.skeleton->skeleton)
       throw Error(

@@ -15,6 +15,7 @@
 #include "handles/joint.hpp"
 #include "handles/marker.hpp"
 #include "handles/part.hpp"
+#include "handles/targets.hpp"
 #include "state/dof_state.hpp"
 
 namespace pydart2 {
@@ -49,6 +50,7 @@ public:
   std::vector<std::string> dof_names() const;
   DynamicsHandle dynamics() const;
   InverseKinematicsHandle inverse_kinematics() const;
+  TargetsHandle targets() const;
 
   void positions(Output& like) const;
   void velocities(Output& like) const;

@@ -1,5 +1,6 @@
 #include "state/clone.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -165,7 +166,9 @@ WorldRef build(const Blueprint& blueprint)
   model.finish();
   restore_state(*world, blueprint.state);
   const auto made = blueprint_of(*world);
-  if (made.texts != blueprint.texts || made.numbers != blueprint.numbers || made.state != blueprint.state)
+  auto state = blueprint.state;
+  state.resize(std::max(state.size(), made.state.size()), 0.0); // one from before there were motors has none
+  if (made.texts != blueprint.texts || made.numbers != blueprint.numbers || made.state != state)
     throw Error(Kind::engine, "the world cannot be made again: the engine does not take some of its numbers back");
   return world;
 }

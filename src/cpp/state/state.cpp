@@ -64,6 +64,23 @@ void visit_point(Archive& archive, PointMass& point)
       [&](Vector value) { point.setConstraintImpulse(Eigen::Vector3d(value), true); });
 }
 
+/// Motors without a target have zeros.
+void visit_motors(Archive& archive, SkeletonRecord& item)
+{
+  auto& motors = item.motors;
+  const Targets none(static_cast<long>(item.skeleton->getNumDofs()));
+  Targets targets = motors.targets() ? *motors.targets() : none;
+  for (auto* values : {&targets.q, &targets.dq, &targets.kp, &targets.kd})
+    archive.vector([&] { return *values; }, [&](Vector value) { *values = value; });
+  archive.number(
+      [&] { return static_cast<double>(targets.compensation); },
+      [&](double value) { targets.compensation = static_cast<Targets::Compensation>(value); });
+  if (archive.is_in() && targets.any())
+    motors.set(targets);
+  else if (archive.is_in())
+    motors.clear();
+}
+
 void visit(Archive& archive, WorldRecord& record)
 {
   auto& world = *record.world;
@@ -79,6 +96,19 @@ void visit(Archive& archive, WorldRecord& record)
       for (auto* point : skeleton.getSoftBodyNode(i)->getPointMasses())
         visit_point(archive, *point);
   }
+  for (const auto& item : record.skeletons)
+    visit_motors(archive, *item);
+}
+
+/// A state from before there were motors, with none.
+std::vector<double> with_motors(const WorldRecord& record, std::vector<double> state, std::size_t size)
+{
+  std::size_t motors = 0;
+  for (const auto& item : record.skeletons)
+    motors += 4 * item->skeleton->getNumDofs() + 1;
+  if (state.size() + motors == size)
+    state.resize(size, 0.0);
+  return state;
 }
 
 } // namespace
@@ -92,12 +122,13 @@ std::vector<double> state_of(WorldRecord& record)
   return archive.numbers;
 }
 
-void restore_state(WorldRecord& record, const std::vector<double>& state)
+void restore_state(WorldRecord& record, const std::vector<double>& saved)
 {
   auto& solver = fast_solver(*record.world);
   Archive now;
   visit(now, record);
   const auto size = now.numbers.size();
+  const auto state = with_motors(record, saved, size);
   if (state.size() < size || (state.size() > size && !solver.warm_start()))
     check::size(static_cast<long>(state.size()), size, "the snapshot");
   if (!Eigen::Map<const Eigen::VectorXd>(state.data(), static_cast<long>(state.size())).allFinite())

@@ -209,6 +209,7 @@ void phases(WorldRecord& record)
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
       continue;
+    item->motors.act(skeleton, item->armature, dt);
     {
       const WithArmature with_armature(item->armature, dt);
       skeleton.computeForwardDynamics();

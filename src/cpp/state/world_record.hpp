@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dynamics/armature.hpp"
+#include "dynamics/stable_pd.hpp"
 #include "state/constraint_record.hpp"
 #include "state/dof_state.hpp"
 #include "state/recording.hpp"
@@ -38,6 +39,7 @@ struct SkeletonRecord
   std::shared_ptr<StateWatch> watch = nullptr;
 
   Armature armature = {};
+  Motors motors = {};
 
   /// Where the engine keeps the state, found again when the tree has changed.
   const DofState& dofs();
