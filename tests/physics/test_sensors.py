@@ -1,0 +1,100 @@
+"""What sensors read: the signs of real ones, contact forces, rate, noise and bias."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from pydart2 import SimpleFrame, World
+from pydart2.sensors import IMU, ForceTorque, JointEncoder, Sensors, Touch
+
+G = 9.81
+
+
+def test_an_accelerometer_at_rest_and_in_free_fall() -> None:
+    """9.81 upwards on the ground, in the axes of the sensor; zero while falling."""
+    world = World(0.001)
+    world.add_ground()
+    box = world.add_box((0.2, 0.2, 0.2), mass=2.0, position=(0, 0.1, 0)).bodynodes[0]
+    ball = world.add_sphere(0.1, position=(0, 50.0, 0)).bodynodes[0]
+    resting, falling = IMU(SimpleFrame(box, [[1, 0, 0], [0, 0, 1], [0, -1, 0]], [0, 0.05, 0])), IMU(ball)
+    world.step(500)
+    assert_allclose(resting.read(), [0.0, 0.0, G, 0.0, 0.0, 0.0], atol=1e-6)
+    assert_allclose(falling.read(), np.zeros(6), atol=1e-9)
+    assert_allclose(Touch(box).read(), [2.0 * G], rtol=1e-6)
+    assert_allclose(Touch(ball).read(), [0.0], atol=0.0)
+
+
+def test_an_accelerometer_on_a_turntable() -> None:
+    """Towards the axis with w^2 r, and the gyroscope with w."""
+    world = World(1e-4)
+    world.set_gravity([0.0, 0.0, -G])
+    table = world.add_empty_skeleton("table")
+    disc = table.add_body("disc", joint="revolute", axis=(0, 0, 1))
+    disc.add_cylinder(0.5, 0.1, mass=1.0)
+    table.dq = [3.0]
+    world.step()
+    reading = IMU(SimpleFrame(disc, translation=[0.4, 0.0, 0.0])).read()
+    assert_allclose(reading, [-9.0 * 0.4, 0.0, G, 0.0, 0.0, 3.0], atol=1e-9)
+
+
+def test_a_force_sensor_reads_what_the_table_does() -> None:
+    """An arm presses a finger on a table: the wrist carries the contact force but for the finger's own weight."""
+    world = World(0.001)
+    world.set_collision_detector(0)
+    world.add_box((0.5, 0.1, 0.5), position=(0, -0.05, 0), fixed=True)
+    arm = world.add_empty_skeleton("arm")
+    slide = arm.add_body("slide", joint="prismatic", axis=(0, 1, 0), position=(0, 0.3, 0))
+    slide.add_mass(1.0, inertia=0.01 * np.eye(3))
+    finger = arm.add_body("finger", slide, "weld", position=(0, -0.25, 0))
+    finger.add_box((0.1, 0.1, 0.1), mass=0.2)
+    for _ in range(2000):
+        arm.tau = [-20.0]
+        world.step()
+    wrist = ForceTorque(finger.parent_joint)
+    table = finger.contact_force()
+    assert_allclose(table, [0.0, 20.0 + 1.2 * G, 0.0], atol=1e-6)
+    assert_allclose(wrist.read()[3:], [0.0, 0.2 * G, 0.0] - table, atol=1e-9)
+
+
+def test_rate_noise_and_bias() -> None:
+    """A reading stays until the next is due; noise comes from the seed."""
+    world = World(0.001)
+    table = world.add_empty_skeleton("table")
+    table.add_body("disc", joint="revolute", axis=(0, 1, 0)).add_cylinder(0.5, 0.1, mass=1.0)
+    table.dq = [1.0]
+    slow, biased = JointEncoder(table.dofs, rate=100.0), JointEncoder(table.dofs, bias=0.5)
+    noisy, same = (JointEncoder(table.dofs, noise=0.01, seed=4) for _ in range(2))
+    readings, errors = [], []
+    for _ in range(1000):
+        world.step()
+        readings.append(slow.read()[0])
+        errors.append(noisy.read()[0] - table.q[0])
+        assert noisy.read()[0] == same.read()[0] == noisy.read()[0]
+    assert len(set(readings)) == 100
+    assert_allclose(biased.read(), table.q + 0.5, atol=1e-12)
+    assert_allclose([np.mean(errors), np.std(errors)], [0.0, 0.01], atol=1e-3)
+
+
+def test_one_array_for_a_robot() -> None:
+    """With a name for each number."""
+    world = World(0.001)
+    arm = world.add_empty_skeleton("arm")
+    link = arm.add_body("link", joint="revolute", axis=(0, 0, 1))
+    link.add_box((0.3, 0.1, 0.1), mass=1.0)
+    sensors = Sensors([JointEncoder(arm.dofs), ForceTorque(arm.joints[0]), Touch(link), IMU(link)])
+    world.step()
+    assert sensors.read().shape == (len(sensors.labels),) == (14,)
+    assert sensors.labels[0] == "link_joint.position" and sensors.labels[-1] == "link.rate_z"
+    assert Sensors([]).read().shape == (0,)
+
+
+def test_what_does_not_fit_is_refused() -> None:
+    """With a sentence."""
+    with pytest.raises(ValueError, match="needs a dof"):
+        JointEncoder([])
+    with pytest.raises(ValueError, match="rate"):
+        Touch(World(0.001).add_sphere(0.1).bodynodes[0], rate=0.0)
+    with pytest.raises(ValueError, match="fixed in the world"):
+        IMU(SimpleFrame())
