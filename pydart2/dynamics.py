@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.targets import TargetControl
+
 if TYPE_CHECKING:
     from pydart2._native import SkeletonHandle
     from pydart2.bodynode import BodyNode
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-class Dynamics:
+class Dynamics(TargetControl):
     """What a Skeleton knows of ``M ddq + c = tau + external + damping + springs + constraints``.
 
     The forces are those of the present q and dq, with the sign that they have in this equation.

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2 import contact_forces, manager
+from pydart2 import constraints, contact_forces, manager
 from pydart2._native import WorldHandle
 from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
@@ -23,6 +23,7 @@ from pydart2.state import Snapshot, model_hash
 
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
+    from pydart2.constraints import Constraint
     from pydart2.loading import Missing, Reader, Source
 
 _log = logging.getLogger("pydart2")
@@ -401,6 +402,11 @@ class World(WorldBuilding):
     @g.setter
     def g(self, g: ArrayLike) -> None:
         self._handle.set_gravity(g)
+
+    @property
+    def constraints(self) -> list[Constraint]:
+        """The constraints between bodies that act, in the order in which they were added."""
+        return constraints.of_world(self)
 
     def remove_all_constraints(self) -> None:
         """Take away all constraints that were added, as BallJointConstraint."""

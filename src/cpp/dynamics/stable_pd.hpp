@@ -29,10 +29,10 @@ struct Targets
 /// with the q'' that follows from them, from the springs and dampers of the joints (D, K, implicit as the engine has
 /// them), from what else acts on the dofs and from what contacts and limits did in the last step,
 ///
-///   (M + A + h (D + kd) + h^2 (K + kp)) q'' = tau at q'' = 0 + others - c - D q' - K (q + h q' - rest).
+///   (M + A + h (D + kd) + h^2 (K + kp)) q'' = tau at q'' = 0 + others - c - D q' - K (q + h q' - rest),
 ///
-/// with A the armature. A motor beyond its effort limit has that force, and the others are computed again. Differences of ball and free joints
-/// are those of the engine's log map.
+/// with A the armature. A motor beyond its effort limit has that force, and the others are computed again. Differences of
+/// ball and free joints are those of the engine's log map.
 class StablePd
 {
 public:

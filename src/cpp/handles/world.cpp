@@ -341,15 +341,61 @@ void WorldHandle::contacts(Output& out) const
 void WorldHandle::add_ball_joint_constraint(
     const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point)
 {
-  auto& record = world();
   check::finite(point, "joint position");
-  auto& a = body1.body();
-  auto& b = body2.body();
-  if (record.index_of(a.getSkeleton()) < 0 || record.index_of(b.getSkeleton()) < 0)
+  add_constraint(static_cast<int>(ConstraintRecord::Kind::ball), body1.body(), &body2.body(), point);
+}
+
+int WorldHandle::add_constraint_to_world(long kind, const BodyNodeHandle& body, const Eigen::Vector3d& point)
+{
+  check::finite(point, "joint position");
+  return add_constraint(kind, body.body(), nullptr, point);
+}
+
+int WorldHandle::add_constraint_between(
+    long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point)
+{
+  check::finite(point, "joint position");
+  return add_constraint(kind, body1.body(), &body2.body(), point);
+}
+
+int WorldHandle::add_constraint(
+    long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const Eigen::Vector3d& point)
+{
+  auto& record = world();
+  if (record.index_of(a.getSkeleton()) < 0 || (b && record.index_of(b->getSkeleton()) < 0))
     throw Error(Kind::value, "both bodies of a constraint must be in the world that it is added to");
-  if (&a == &b)
+  if (&a == b)
     throw Error(Kind::value, "a constraint needs two different bodies, got '" + a.getName() + "' twice");
-  record.constraints.push_back(add_ball_joint(*record.world->getConstraintSolver(), a, b, point));
+  ConstraintRecord added;
+  added.kind = static_cast<ConstraintRecord::Kind>(check::index(kind, 2, "kind of constraint"));
+  added.id = record.constraints.empty() ? 1 : record.constraints.back().id + 1;
+  added.body1 = &a;
+  added.body2 = b;
+  added.point = point;
+  pydart2::add(added, *record.world->getConstraintSolver());
+  record.constraints.push_back(added);
+  return added.id;
+}
+
+void WorldHandle::constraint(long index, Output& out) const
+{
+  const auto& record = world();
+  const auto& one = record.constraints[check::index(index, record.constraints.size(), "constraint")];
+  const auto body = [](const dart::dynamics::BodyNode* b) { return b ? double(b->getIndexInSkeleton()) : -1.0; };
+  vector(out, 9) << double(one.id), double(one.kind), double(record.index_of(one.skeleton1)), body(one.body1),
+      one.skeleton2 ? double(record.index_of(one.skeleton2)) : -1.0, body(one.body2), one.point;
+}
+
+bool WorldHandle::remove_constraint(long id)
+{
+  auto& record = world();
+  auto& all = record.constraints;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.id == id; });
+  if (found == all.end())
+    return false;
+  record.world->getConstraintSolver()->removeConstraint(found->constraint);
+  all.erase(found);
+  return true;
 }
 
 int WorldHandle::num_constraints() const

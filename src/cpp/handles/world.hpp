@@ -91,6 +91,17 @@ public:
 
   void add_ball_joint_constraint(const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point);
   int num_constraints() const;
+
+  /// Kind: 0 ball, at a point of the world, 1 weld, as the bodies stand. Returns the id.
+  int add_constraint_between(
+      long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point);
+  int add_constraint_to_world(long kind, const BodyNodeHandle& body, const Eigen::Vector3d& point);
+
+  /// Id, kind, skeleton and body id of the first body, of the second (-1 for the world), point (3).
+  void constraint(long index, Output& out) const;
+
+  /// False if there is none of this id.
+  bool remove_constraint(long id);
   void remove_all_constraints();
 
   /// All that a step changes and the next one depends on. With `exact` the world first forgets what its detector and
@@ -128,6 +139,8 @@ public:
   const WorldRef& ref() const { return record_; }
 
 private:
+  int add_constraint(
+      long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const Eigen::Vector3d& point);
   explicit WorldHandle(WorldRef record);
   WorldRecord& world() const;
 

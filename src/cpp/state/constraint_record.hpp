@@ -5,22 +5,23 @@
 
 namespace pydart2 {
 
-/// A ball joint between two bodies, with the skeletons that it needs alive and what it takes to make it again.
+/// A joint that a user added between two bodies, or between one and the world (body2 is null), with the skeletons that it
+/// needs alive and what it takes to make it again.
 struct ConstraintRecord
 {
-  dart::constraint::ConstraintBasePtr constraint;
+  enum class Kind { ball, weld };
+
+  Kind kind = Kind::ball;
+  int id = 0; ///< Of its own in the world.
+  dart::dynamics::BodyNode *body1 = nullptr, *body2 = nullptr;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< Of a ball joint, world frame, when it was made.
+  Eigen::VectorXd positions1, positions2;          ///< Positions of the skeletons when it was made.
   dart::dynamics::SkeletonPtr skeleton1, skeleton2;
-  dart::dynamics::BodyNode *body1, *body2;
-  Eigen::Vector3d point;                  ///< World frame, when it was made.
-  Eigen::VectorXd positions1, positions2; ///< Positions of the skeletons when it was made.
+  dart::constraint::ConstraintBasePtr constraint;
 };
 
-/// Makes a ball joint at a point of the world, as the bodies stand now, and adds it.
-ConstraintRecord add_ball_joint(
-    dart::constraint::ConstraintSolver& solver,
-    dart::dynamics::BodyNode& body1,
-    dart::dynamics::BodyNode& body2,
-    const Eigen::Vector3d& point);
+/// Makes the joint of a record that has its kind, bodies and point, as the bodies stand now, and adds it.
+void add(ConstraintRecord& record, dart::constraint::ConstraintSolver& solver);
 
 /// Makes it again from its record; the engine's keeps the multipliers of the last step.
 void renew(ConstraintRecord& record, dart::constraint::ConstraintSolver& solver);

@@ -1,5 +1,6 @@
 #include "state/model.hpp"
 
+#include <algorithm>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/Marker.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
@@ -113,30 +114,53 @@ void visit_settings(Archive& archive, WorldRecord& record)
   archive.number([&] { return solver.memory_limit(); }, [&](double bytes) { solver.set_memory_limit(bytes); });
 }
 
+void visit_kinds(Archive& archive, std::vector<ConstraintRecord>& constraints)
+{
+  for (auto& record : constraints) {
+    const auto kind = archive.count(static_cast<std::size_t>(record.kind));
+    record.kind = kind == 0 ? ConstraintRecord::Kind::ball : ConstraintRecord::Kind::weld;
+    if (archive.count(record.body2 == nullptr) != 0)
+      record.body2 = nullptr;
+  }
+}
+
 void visit_constraints(Archive& archive, WorldRecord& world)
 {
   auto& solver = *world.world->getConstraintSolver();
+  const bool plain = std::all_of(world.constraints.begin(), world.constraints.end(), [](const auto& record) {
+    return record.kind == ConstraintRecord::Kind::ball && record.body2 != nullptr;
+  });
   const auto count = archive.count(world.constraints.size());
   if (archive.is_in()) {
     solver.removeAllConstraints();
     world.constraints.assign(count, ConstraintRecord{});
   }
+  int id = 0;
   for (auto& record : world.constraints) {
     record.body1 = visit_reference(archive, world, record.body1);
-    record.body2 = visit_reference(archive, world, record.body2);
+    auto* const body2 = visit_reference(archive, world, record.body2 ? record.body2 : record.body1);
     if (archive.is_in()) {
+      record.id = ++id;
+      record.body2 = body2;
       record.skeleton1 = record.body1->getSkeleton();
-      record.skeleton2 = record.body2->getSkeleton();
+      record.skeleton2 = body2->getSkeleton();
       record.positions1.setZero(static_cast<long>(record.skeleton1->getNumDofs()));
       record.positions2.setZero(static_cast<long>(record.skeleton2->getNumDofs()));
-      record.point.setZero();
     }
+    const Eigen::VectorXd none = record.positions1; // of the world itself: those of the body that it holds
     archive.vector([&] { return record.point; }, [&](const auto& point) { record.point = point; });
     archive.vector([&] { return record.positions1; }, [&](const auto& q) { record.positions1 = q; });
-    archive.vector([&] { return record.positions2; }, [&](const auto& q) { record.positions2 = q; });
-    if (archive.is_in())
-      renew(record, solver);
+    archive.vector(
+        [&] { return record.skeleton2 ? record.positions2 : none; }, [&](const auto& q) { record.positions2 = q; });
   }
+  if (archive.part("constraint kinds", !plain)) // earlier versions had ball joints between two bodies alone
+    visit_kinds(archive, world.constraints);
+  if (archive.is_in())
+    for (auto& record : world.constraints) {
+      if (record.body2 == nullptr)
+        record.skeleton2 = nullptr;
+      renew(record, solver);
+    }
 }
 
 void visit_armature(Archive& archive, WorldRecord& world)

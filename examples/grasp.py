@@ -1,0 +1,41 @@
+"""Grasp: a hand holds a cube of 5 kg, lifts it, and lets it go."""
+
+import numpy as np
+from _headless import arguments, rehearse
+
+import pydart2 as pydart
+from pydart2.constraints import WeldJointConstraint
+
+
+class Grasp(pydart.World):
+    """Lifts from step 100 on and lets go at step 900."""
+
+    def __init__(self) -> None:
+        super().__init__(0.001)
+        arm = self.add_empty_skeleton("arm")
+        self.hand = arm.add_body("hand", joint="prismatic", axis=(0, 1, 0), position=(0, 0.5, 0))
+        self.hand.add_box((0.1, 0.05, 0.1))
+        self.cube = self.add_box((0.1, 0.1, 0.1), mass=5.0, position=(0, 0.4, 0)).bodynodes[0]
+        arm.set_targets([0.0], kp=1e4, kd=1e3, compensate="gravity")
+        self.grasp = WeldJointConstraint(self.hand, self.cube)
+        self.grasp.add_to_world(self)
+        self.gap = 0.0  # how far the cube has ever been from its place in the hand, m
+
+    def step(self, n: int = 1) -> None:
+        """One step; the cube's place in the hand is 0.1 m below."""
+        if self.frame == 100:
+            self.hand.skeleton.set_targets([0.3])
+        if self.frame == 900:
+            self.grasp.remove()
+        super().step(n)
+        if self.grasp.is_active():
+            self.gap = max(self.gap, float(np.linalg.norm(self.cube.relative_pose(self.hand)[:3, 3] + [0.0, 0.1, 0.0])))
+
+
+if __name__ == "__main__":
+    args = arguments()
+    world = Grasp()
+    if args.headless:
+        rehearse(world, args, 1000, lambda: {f"the cube slips by {1e3 * world.gap:.3f} mm at most": world.gap < 5e-4})
+    else:
+        pydart.gui.viewer.launch(world)
