@@ -20,7 +20,7 @@ class EngineInfo(NamedTuple):
     prefix
         Folder that it is installed under, as ``"/usr"``.
     solver
-        Constraint solver of new worlds, "fast" or "dart" (`World.set_constraint_solver`).
+        Constraint solver of new worlds, "fast", "dart" or "iterative" (`World.set_constraint_solver`).
     """
 
     dart: str

@@ -27,7 +27,27 @@ if TYPE_CHECKING:
     from pydart2.loading import Missing, Reader, Source
 
 _log = logging.getLogger("pydart2")
+_ITERATIVE: dict[str, float | str] = {
+    "iterations": 50,
+    "tolerance": 1e-6,
+    "friction": "pyramid",
+    "stabilisation": "split",
+    "error_reduction": 0.2,
+    "allowance": 1e-4,
+    "correction_speed": 1.0,
+}
+_ITERATIVE_NAMES = {"friction": ("pyramid", "cone", "engine"), "stabilisation": ("engine", "split")}
 _DETECTORS = ("dart", "fcl", "bullet", "ode", "native")
+
+
+def _option_number(option: str, value: float | str) -> float:
+    """What C++ gets for an option of the iterative solver; NameNotFound for a word that is none of its."""
+    if option not in _ITERATIVE_NAMES:
+        return float(value)
+    names = _ITERATIVE_NAMES[option]
+    if value not in names:
+        raise NameNotFound(option, str(value), ", ".join(names), names)
+    return names.index(str(value))
 
 
 def create_world(step: float, skel_path: str | os.PathLike[str] | None = None) -> World:
@@ -437,23 +457,76 @@ class World(WorldBuilding):
         """Name of the detector's constant, as ``"FCL_COLLISION_DETECTOR"``."""
         return f"{self._handle.collision_detector().upper()}_COLLISION_DETECTOR"
 
-    def set_constraint_solver(self, name: str) -> None:
-        """Choose the code that sets up the equations of contacts and constraints; ValueError for an unknown name.
+    def set_constraint_solver(self, name: str, **options: float | str) -> None:
+        """Choose the code that solves contacts and constraints; ValueError for an unknown name.
 
         "fast" (default) and "dart", the engine's own, which gives bitwise the same states and contact forces. The
         environment variable ``PYDART2_SOLVER`` names the one that new worlds start with.
+
+        "iterative" sweeps over the rows of all contacts and constraints until they agree: its time grows with their
+        number, not with the cube of it, and its results are approximate. It switches set_warm_start() and
+        set_contact_reduction() on, the others switch them off. Its options (a TypeError for others):
+
+        ========================== ======================================================================
+        `iterations` = 50          sweeps in a step, at most
+        `tolerance` = 1e-6         m/s, rad/s: the sweeps end when none changes a velocity by more
+        `friction` = "pyramid"     each of two tangents within mu times the normal force, so that along their
+                                   diagonal it reaches sqrt(2) times that; "cone": both together; "engine": bounds
+                                   from the normal forces without friction, which the engine takes
+        `stabilisation` = "split"  depth is taken away by moving the bodies, which their velocities do not see;
+                                   "engine": by velocities, at 1 mm/s at most
+        `error_reduction` = 0.2    part of the depth that a step of "split" takes away
+        `allowance` = 1e-4         m: depth that "split" leaves
+        `correction_speed` = 1     m/s: "split" is not faster
+        ========================== ======================================================================
+
+        Groups with soft bodies, or constraints of other classes than the engine's, are solved as by "fast".
         """
+        unknown = [option for option in options if option not in _ITERATIVE]
+        if unknown or (options and name != "iterative"):
+            known = ", ".join(_ITERATIVE) if name == "iterative" else "none"
+            raise TypeError(f"solver {name!r} has no option {(unknown or list(options))[0]!r}; its options: {known}")
+        numbers = [_option_number(option, value) for option, value in (_ITERATIVE | options).items()]
+        before = self._handle.constraint_solver()
+        if name == "iterative":
+            self._handle.set_iterative_options(np.array(numbers))
         self._handle.set_constraint_solver(name)
+        if "iterative" in (before, name) and before != name:
+            self._handle.set_warm_start(name == "iterative")
+            self._handle.set_contact_reduction(name == "iterative")
 
     def constraint_solver(self) -> str:
-        """Name of the constraint solver, "fast" or "dart"."""
+        """Name of the constraint solver, "fast", "dart" or "iterative"."""
         return self._handle.constraint_solver()
+
+    def constraint_solver_options(self) -> dict[str, float | str]:
+        """The options of the constraint solver; none of "fast" and "dart"."""
+        if self.constraint_solver() != "iterative":
+            return {}
+        values: dict[str, float | str] = dict(zip(_ITERATIVE, self._handle.iterative_options().tolist(), strict=True))
+        values["iterations"] = int(values["iterations"])
+        for option, names in _ITERATIVE_NAMES.items():
+            values[option] = names[int(values[option])]
+        return values
+
+    def solver_iterations(self) -> int:
+        """How many sweeps the "iterative" solver made in the last step, in the group with the most; else 0."""
+        return self._handle.solver_iterations()
+
+    def solver_residual(self) -> float:
+        """How far the last step's forces of the "iterative" solver are from a solution, in m/s (rad/s for joints).
+
+        The largest over the rows of W |x - P(x - w / W)|: impulse x, velocity w that is left, the velocity W that a
+        unit impulse gives, and P what brings an impulse within its bounds or into the friction cone.
+        """
+        return self._handle.solver_residual()
 
     def set_contact_reduction(self, enable: bool = True) -> None:
         """Let at most four contacts of each pair of faces bear forces, those that span the largest area.
 
-        Off by default. Faster where bodies meet in many points, but the results are no longer the engine's: the forces
-        of a face spread over other points. The other contacts stay in `collision_result`, with force 0.
+        Off by default, on with "iterative". Faster where bodies meet in many points, but the results are no longer the
+        engine's: the forces of a face spread over other points. The other contacts stay in `collision_result`, with
+        force 0.
         """
         self._handle.set_contact_reduction(enable)
 
@@ -462,11 +535,12 @@ class World(WorldBuilding):
         return self._handle.contact_reduction()
 
     def set_warm_start(self, enable: bool = True) -> None:
-        """Let the "fast" solver begin the search for the contact forces from those of the step before.
+        """Let the "fast" or "iterative" solver begin the search for the contact forces from those of the step before.
 
-        Off by default. Faster where many contacts last, but the forces are the engine's to rounding only (nearer to the
-        solution where the engine's direct solver gives up): what rests stays where it is, what tumbles takes another
-        path after a while. What is remembered of the step before is in a snapshot; reset() forgets it.
+        Off by default, on with "iterative". Faster where many contacts last, but the forces of "fast" are the engine's
+        to rounding only (nearer to the solution where the engine's direct solver gives up): what rests stays where it
+        is, what tumbles takes another path after a while. What is remembered of the step
+        before is in a snapshot; reset() forgets it.
         """
         self._handle.set_warm_start(enable)
 

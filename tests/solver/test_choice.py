@@ -76,7 +76,7 @@ def test_names(cubes: pydart2.World) -> None:
     assert cubes.constraint_solver() == "fast"
     cubes.set_constraint_solver("dart")
     assert cubes.constraint_solver() == "dart"
-    with pytest.raises(ValueError, match="no constraint solver 'quick'; there are fast and dart"):
+    with pytest.raises(ValueError, match="no constraint solver 'quick'; there are fast, dart and iterative"):
         cubes.set_constraint_solver("quick")
     assert cubes.constraint_solver() == "dart"
 

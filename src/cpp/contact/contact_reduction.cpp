@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <dart/collision/Contact.hpp>
+#include <map>
 #include <vector>
 
 #include "engine/engine_access.hpp"
@@ -32,6 +33,7 @@ struct FacePair
 std::vector<FacePair> face_pairs(ConstrainedGroup& group)
 {
   std::vector<FacePair> pairs;
+  std::map<std::array<dart::dynamics::BodyNode*, 2>, std::vector<std::size_t>> of_bodies; // looked up only
   for (std::size_t i = 0; i < group.getNumConstraints(); ++i) {
     const auto constraint = group.getConstraint(i);
     const auto* contact = engine::contact(*constraint);
@@ -39,13 +41,14 @@ std::vector<FacePair> face_pairs(ConstrainedGroup& group)
       continue;
     engine::Rows rows;
     engine::read_rows(*constraint, rows);
-    const auto same = [&](const FacePair& pair) {
-      return pair.bodies == rows.bodies.bodies && pair.normal.dot(contact->normal) > same_normal;
-    };
-    auto pair = std::find_if(pairs.begin(), pairs.end(), same);
-    if (pair == pairs.end())
-      pair = pairs.insert(pair, {rows.bodies.bodies, contact->normal, {}});
-    pair->points.push_back({constraint, contact});
+    auto& known = of_bodies[rows.bodies.bodies];
+    const auto same = [&](std::size_t pair) { return pairs[pair].normal.dot(contact->normal) > same_normal; };
+    auto pair = std::find_if(known.begin(), known.end(), same);
+    if (pair == known.end()) {
+      pair = known.insert(pair, pairs.size());
+      pairs.push_back({rows.bodies.bodies, contact->normal, {}});
+    }
+    pairs[*pair].points.push_back({constraint, contact});
   }
   return pairs;
 }

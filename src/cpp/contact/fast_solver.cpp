@@ -21,12 +21,14 @@ Solver solver_named(const std::string& name)
     return Solver::dart;
   if (name == "fast")
     return Solver::fast;
-  throw Error(Kind::value, "no constraint solver '" + name + "'; there are fast and dart");
+  if (name == "iterative")
+    return Solver::iterative;
+  throw Error(Kind::value, "no constraint solver '" + name + "'; there are fast, dart and iterative");
 }
 
 const char* name_of(Solver solver)
 {
-  return solver == Solver::fast ? "fast" : "dart";
+  return solver == Solver::fast ? "fast" : solver == Solver::dart ? "dart" : "iterative";
 }
 
 Solver default_solver()
@@ -45,6 +47,8 @@ void install_solver(dart::simulation::World& world, Solver solver)
 {
   auto installed = std::make_unique<FastConstraintSolver>();
   installed->set_solver(solver);
+  installed->set_warm_start(solver == Solver::iterative);
+  installed->set_contact_reduction(solver == Solver::iterative);
   world.setConstraintSolver(std::move(installed));
   // The engine stops at 1,000 without a word: what is in the others' place sinks.
   world.getConstraintSolver()->getCollisionOption().maxNumContacts = unlimited_contacts;
@@ -58,7 +62,29 @@ FastConstraintSolver& fast_solver(const dart::simulation::World& world)
 void FastConstraintSolver::set_warm_start(bool enable)
 {
   warm_start_ = enable;
+  forget();
+}
+
+void FastConstraintSolver::begin_step()
+{
+  if (solver_ == Solver::iterative)
+    iterative_.begin_step(mSkeletons);
+}
+
+std::vector<double> FastConstraintSolver::memory() const
+{
+  return solver_ == Solver::iterative ? iterative_.memory.numbers() : warm_lcp_.memory();
+}
+
+bool FastConstraintSolver::remember(const std::vector<double>& memory)
+{
+  return solver_ == Solver::iterative ? iterative_.memory.restore(memory) : warm_lcp_.remember(memory);
+}
+
+void FastConstraintSolver::forget()
+{
   warm_lcp_.forget();
+  iterative_.memory.forget();
 }
 
 void FastConstraintSolver::setFromOtherConstraintSolver(const ConstraintSolver& from)
@@ -80,17 +106,21 @@ void FastConstraintSolver::setFromOtherConstraintSolver(const ConstraintSolver& 
 void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
 {
   if (&group == &mConstrainedGroups.front())
-    shared_ = solver_ == Solver::fast && mConstrainedGroups.size() > 1 && groups_share_skeletons();
+    shared_ = solver_ != Solver::dart && mConstrainedGroups.size() > 1
+              && !(solver_ == Solver::iterative && has_only_contacts()) && groups_share_skeletons();
   if (contact_reduction_)
     keep_extremal_contacts(group);
-  check_memory(group);
   if (solver_ == Solver::dart || shared_) {
+    check_memory(group);
     BoxedLcpConstraintSolver::solveConstrainedGroup(group);
     return;
   }
   const auto size = static_cast<Eigen::Index>(group.getTotalDimension());
   if (size == 0)
     return;
+  if (solver_ == Solver::iterative && solve_iteratively(group))
+    return;
+  check_memory(group);
   read_terms(group);
   matrix_.read(group, mSkeletons);
   mA.resize(size, dPAD(size));
@@ -110,8 +140,33 @@ void FastConstraintSolver::check_memory(const ConstrainedGroup& group) const
   text << std::setprecision(3) << "the contacts and constraints of one group of bodies that touch have "
        << std::setprecision(9) << rows << " rows, whose matrix would take " << std::setprecision(3) << bytes / 1e9
        << " GB; world.contact_memory_limit is " << memory_limit_ / 1e9
-       << " GB. Raise it, set_contact_reduction(True), or take a detector that finds fewer contacts, as Bullet";
+       << " GB. Raise it, or set_constraint_solver(\"iterative\"), which needs no matrix";
   throw Error(Kind::simulation, text.str());
+}
+
+/// False for groups with constraints that the iterative solver does not know.
+bool FastConstraintSolver::solve_iteratively(ConstrainedGroup& group)
+{
+  if (!iterative_.read(group))
+    return false;
+  read_terms(group);
+  iterative_.solve(group, {mLo, mHi, mFIndex, mB}, mTimeStep, warm_start_, mX);
+  if (!mX.allFinite()) {
+    dterr << "[FastConstraintSolver] The contact and joint impulses are not numbers; this step has none.\n";
+    mX.setZero();
+  }
+  iterative_.apply(group, mTimeStep, mX);
+  return true;
+}
+
+/// Contacts alone never put a skeleton into two groups.
+bool FastConstraintSolver::has_only_contacts() const
+{
+  for (const auto& group : mConstrainedGroups)
+    for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
+      if (engine::contact(*group.getConstraint(i)) == nullptr)
+        return false;
+  return true;
 }
 
 /// DART finds the group of a joint's constraint by one look at a forest of skeletons that contacts have joined, so a

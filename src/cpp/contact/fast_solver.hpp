@@ -7,14 +7,15 @@
 
 #include "contact/constraint_matrix.hpp"
 #include "contact/dantzig_lcp.hpp"
+#include "contact/iterative_solver.hpp"
 #include "contact/warm_lcp.hpp"
 
 namespace pydart2 {
 
-/// Which code sets up the constraints' equations of a world; the results are bitwise the same.
-enum class Solver { dart, fast };
+/// Which code solves the constraints of a world; the results of the first two are bitwise the same.
+enum class Solver { dart, fast, iterative };
 
-/// "dart" or "fast"; ValueError for any other name.
+/// "dart", "fast" or "iterative"; ValueError for any other name.
 Solver solver_named(const std::string& name);
 const char* name_of(Solver solver);
 
@@ -37,7 +38,17 @@ public:
   /// Begins each step's LCP from the one before (warm_lcp.hpp); forgets what it remembers.
   void set_warm_start(bool enable);
   bool warm_start() const { return warm_start_; }
-  WarmLcp& warm_lcp() { return warm_lcp_; }
+
+  IterativeSolver& iterative() { return iterative_; }
+
+  /// To be called before each step.
+  void begin_step();
+
+  /// What the chosen solver remembers of the step before, and back; false, and nothing changes, if these are other
+  /// numbers.
+  std::vector<double> memory() const;
+  bool remember(const std::vector<double>& memory);
+  void forget();
 
   /// Most bytes that the matrices of one group may take; a step that needs more throws before it allocates them.
   void set_memory_limit(double bytes) { memory_limit_ = bytes; }
@@ -50,6 +61,8 @@ protected:
   void solveConstrainedGroup(dart::constraint::ConstrainedGroup& group) override;
 
 private:
+  bool solve_iteratively(dart::constraint::ConstrainedGroup& group);
+  bool has_only_contacts() const;
   bool groups_share_skeletons();
   void check_memory(const dart::constraint::ConstrainedGroup& group) const;
   void read_terms(dart::constraint::ConstrainedGroup& group);
@@ -63,6 +76,7 @@ private:
   bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
   ConstraintMatrix matrix_;
   DantzigLcp dantzig_lcp_;
+  IterativeSolver iterative_;
   WarmLcp warm_lcp_;
   Eigen::VectorXd warm_x_;
 };

@@ -72,6 +72,15 @@ public:
   const Vector6& velocity_change(int body) const { return bodies_[body].change; }
   double joint_velocity_change(int body, int dof) const;
 
+  dart::dynamics::BodyNode& node(int body) const { return *bodies_[body].node; }
+
+  /// How many degrees of freedom impulses move at a body's joint.
+  int dofs(int body) const;
+
+  /// Adds what a wrench on a body, in its frame, is as a generalised impulse at the joints from the body to the root: at
+  /// out[starts[b]] that of the joint of body b.
+  void add_generalised(int body, Vector6 wrench, const std::vector<int>& starts, double* out) const;
+
 private:
   /// A joint with N degrees of freedom that impulses move.
   template <int N>

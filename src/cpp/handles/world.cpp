@@ -201,7 +201,7 @@ void WorldHandle::reset()
     reset_skeleton(*skeleton->skeleton);
   if (record.frame > 0) // a fresh world's detector has the engine's own order of contacts
     forget_history(record);
-  fast_solver(*record.world).warm_lcp().forget();
+  fast_solver(*record.world).forget();
   record.frame = 0;
   if (record.recording.enabled())
     clear_recording();
@@ -255,6 +255,28 @@ std::string WorldHandle::constraint_solver() const
 void WorldHandle::set_constraint_solver(const std::string& name)
 {
   fast_solver(*world().world).set_solver(solver_named(name));
+}
+
+void WorldHandle::iterative_options(Output& out) const
+{
+  const auto numbers = numbers_of(fast_solver(*world().world).iterative().options);
+  vector(out, numbers.size()) = numbers;
+}
+
+void WorldHandle::set_iterative_options(const VectorIn& options)
+{
+  fast_solver(*world().world).iterative().options
+      = options_of(Eigen::Map<const Eigen::VectorXd>(options.data, options.size));
+}
+
+int WorldHandle::solver_iterations() const
+{
+  return fast_solver(*world().world).iterative().iterations_used();
+}
+
+double WorldHandle::solver_residual() const
+{
+  return fast_solver(*world().world).iterative().residual();
 }
 
 bool WorldHandle::contact_reduction() const

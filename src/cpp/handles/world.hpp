@@ -64,9 +64,17 @@ public:
   std::string collision_detector() const;
   void set_collision_detector(const std::string& name);
 
-  /// "fast" or "dart".
+  /// "fast", "dart" or "iterative".
   std::string constraint_solver() const;
   void set_constraint_solver(const std::string& name);
+
+  /// Iterations, tolerance, friction (0 pyramid, 1 cone, 2 engine), split, error reduction, allowance, correction speed.
+  void iterative_options(Output& out) const;
+  void set_iterative_options(const VectorIn& options);
+
+  /// Of the iterative solver's last step.
+  int solver_iterations() const;
+  double solver_residual() const;
 
   /// At most four contacts of each pair of faces.
   bool contact_reduction() const;

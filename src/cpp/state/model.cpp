@@ -201,6 +201,10 @@ void visit_model(Archive& archive, WorldRecord& record)
   archive.number(
       [&] { return double(solver.contact_reduction()); }, [&](double on) { solver.set_contact_reduction(on != 0.0); });
   archive.number([&] { return double(solver.warm_start()); }, [&](double on) { solver.set_warm_start(on != 0.0); });
+  if (solver.solver() == Solver::iterative)
+    archive.vector(
+        [&] { return numbers_of(solver.iterative().options); },
+        [&](const auto& numbers) { solver.iterative().options = options_of(numbers); });
   visit_ignored_pairs(archive, record);
   visit_constraints(archive, record);
   visit_armature(archive, record);

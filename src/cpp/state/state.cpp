@@ -117,7 +117,7 @@ std::vector<double> state_of(WorldRecord& record)
 {
   Archive archive;
   visit(archive, record);
-  const auto memory = fast_solver(*record.world).warm_lcp().memory();
+  const auto memory = fast_solver(*record.world).memory();
   archive.numbers.insert(archive.numbers.end(), memory.begin(), memory.end());
   return archive.numbers;
 }
@@ -134,7 +134,7 @@ void restore_state(WorldRecord& record, const std::vector<double>& saved)
   if (!Eigen::Map<const Eigen::VectorXd>(state.data(), static_cast<long>(state.size())).allFinite())
     throw Error(Kind::value, "the snapshot must be finite");
   const auto end = state.begin() + static_cast<std::ptrdiff_t>(size);
-  if (!solver.warm_lcp().remember({end, state.end()}))
+  if (!solver.remember({end, state.end()}))
     throw Error(Kind::value, "the snapshot does not end with what a solver with a warm start remembers");
   Archive archive({}, {state.begin(), end});
   visit(archive, record);

@@ -13,6 +13,7 @@
 #include "base/errors.hpp"
 #include "collision/detector.hpp"
 #include "collision/native_detector.hpp"
+#include "contact/fast_solver.hpp"
 #include "state/dof_state.hpp"
 
 namespace pydart2 {
@@ -175,6 +176,7 @@ void solve_constraints(WorldRecord& record, double time)
   check_range(record, ode, time);
   const auto lock = ode ? lock_ode() : std::unique_lock<std::recursive_mutex>();
   native_group(solver); // the order of the shapes
+  fast_solver(*record.world).begin_step();
   solver.solve();
   const auto most = solver.getCollisionOption().maxNumContacts;
   if (!record.told_of_contact_limit && solver.getLastCollisionResult().getNumContacts() >= most) {
@@ -227,9 +229,17 @@ void phases(WorldRecord& record)
       skeleton.setImpulseApplied(false);
       item->watch->check_velocities(end);
     }
+  }
+  auto& corrections = fast_solver(world).iterative();
+  corrections.add_corrections();
+  for (const auto& item : record.skeletons) {
+    auto& skeleton = *item->skeleton;
+    if (!skeleton.isMobile())
+      continue;
     skeleton.integratePositions(dt);
     item->watch->check_positions(end);
   }
+  corrections.take_off_corrections();
 }
 
 /// As Skeleton::clearExternalForces(), which locks a pointer and marks its caches for every body, only for those that

@@ -1,0 +1,174 @@
+"""The iterative contact solver: beside the exact one, closed forms, what stands, and what it remembers."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import pydart2
+from physics.models import standing_atlas
+
+EXACT: dict[str, float | str] = {
+    "iterations": 20000,
+    "tolerance": 1e-11,
+    "friction": "engine",
+    "stabilisation": "engine",
+}
+
+
+def floor(height: float = 0.0, friction: float = 1.0, restitution: float = 0.0, dt: float = 0.002) -> pydart2.World:
+    world = pydart2.World(dt)
+    world.add_ground(height, friction=friction, restitution=restitution)
+    world.set_collision_detector("native")
+    return world
+
+
+def stack(count: int) -> pydart2.World:
+    world = floor()
+    for i in range(count):
+        world.add_box((0.2, 0.2, 0.2), 1.0, (0.0, 0.1 + 0.2 * i, 0.0), name=f"box{i}")
+    return world
+
+
+def cubes() -> pydart2.World:
+    world = pydart2.World(0.001, pydart2.data_path("skel/cubes.skel"))
+    world.step(200)
+    return world
+
+
+def atlas() -> pydart2.World:
+    world = standing_atlas()
+    world.step(50)
+    return world
+
+
+@pytest.mark.parametrize("make", [cubes, atlas, lambda: stack(10)], ids=["cubes", "Atlas", "stack"])
+def test_step_is_that_of_the_exact_solver(make: Callable[[], pydart2.World]) -> None:
+    ours, exact = make(), make()
+    ours.set_constraint_solver("iterative", **EXACT)
+    ours.set_contact_reduction(False)
+    ours.step()
+    exact.step()
+    assert ours.solver_residual() < 1e-7
+    for a, b in zip(ours.skeletons, exact.skeletons, strict=True):
+        assert np.abs(a.dq - b.dq).max(initial=0.0) < 1e-6
+
+
+def test_options() -> None:
+    world = floor()
+    assert world.constraint_solver_options() == {}
+    world.set_constraint_solver("iterative", iterations=7, friction="cone")
+    assert (world.constraint_solver(), world.warm_start(), world.contact_reduction()) == ("iterative", True, True)
+    expected = {"iterations": 7, "tolerance": 1e-6, "friction": "cone", "stabilisation": "split"}
+    assert expected.items() <= world.constraint_solver_options().items()
+    assert pickle.loads(pickle.dumps(world)).constraint_solver_options() == world.constraint_solver_options()
+    assert world.clone().constraint_solver_options() == world.constraint_solver_options()
+    with pytest.raises(TypeError, match="has no option 'sweeps'; its options: iterations, tolerance"):
+        world.set_constraint_solver("iterative", sweeps=3)
+    with pytest.raises(TypeError, match="solver 'fast' has no option 'iterations'; its options: none"):
+        world.set_constraint_solver("fast", iterations=3)
+    with pytest.raises(ValueError, match="no friction 'cones' in pyramid, cone, engine; did you mean 'cone'"):
+        world.set_constraint_solver("iterative", friction="cones")
+    with pytest.raises(ValueError, match="'iterations' must be from 1"):
+        world.set_constraint_solver("iterative", iterations=0)
+    world.set_constraint_solver("fast")
+    assert (world.warm_start(), world.contact_reduction(), world.constraint_solver_options()) == (False, False, {})
+
+
+@pytest.mark.parametrize("friction", ["pyramid", "cone", "engine"])
+def test_stopping_distance(friction: str) -> None:
+    """A flat box that slides: v^2 / (2 mu g), and half a step of it."""
+    mu, v, dt = 0.4, 2.0, 0.001
+    world = floor(friction=mu, dt=dt)
+    box = world.add_box((0.4, 0.02, 0.4), 1.0, (0.0, 0.0099, 0.0), friction=mu)
+    world.set_constraint_solver("iterative", iterations=500, tolerance=1e-9, friction=friction)
+    box.dq = np.r_[np.zeros(3), v, 0.0, 0.0]
+    start = box.C
+    world.step(700)
+    assert abs(box.C[0] - start[0] - v**2 / (2.0 * mu * 9.81)) < 0.01 * v**2 / (2.0 * mu * 9.81)
+    assert np.abs(box.dq).max() < 1e-6
+
+
+@pytest.mark.parametrize(("friction", "reach"), [("pyramid", np.sqrt(2.0)), ("cone", 1.0)])
+def test_friction_along_the_diagonal(friction: str, reach: float) -> None:
+    mu, dt = 0.3, 0.001
+    world = floor(friction=mu, dt=dt)
+    box = world.add_box((0.4, 0.02, 0.4), 1.0, (0.0, 0.0099, 0.0), friction=mu)
+    world.set_constraint_solver("iterative", iterations=500, tolerance=1e-10, friction=friction)
+    box.dq = np.r_[np.zeros(3), 1.0, 0.0, 1.0]
+    world.step()
+    speed = np.hypot(box.dC[0], box.dC[2])
+    assert abs((np.sqrt(2.0) - speed) / (mu * 9.81 * dt) - reach) < 0.01
+
+
+def test_stack_stands() -> None:
+    world = stack(10)
+    world.set_constraint_solver("iterative")
+    world.step(1000)
+    tops = np.array([skeleton.C for skeleton in world.skeletons[1:]])
+    world.step(1000)
+    later = np.array([skeleton.C for skeleton in world.skeletons[1:]])
+    assert np.abs(later - tops).max() < 1e-4
+    assert np.abs(later[:, 1] - (0.1 + 0.2 * np.arange(10))).max() < 5e-3
+    assert max(np.abs(skeleton.dq).max() for skeleton in world.skeletons[1:]) < 1e-3
+
+
+def test_small_box_comes_to_rest_at_the_surface() -> None:
+    """The engine's stabilisation leaves 4 % of a 1 cm box in the floor for seconds."""
+    world = floor(dt=0.005)
+    box = world.add_box((0.01, 0.01, 0.01), 0.001, (0.0, 0.05, 0.0))
+    world.set_constraint_solver("iterative")
+    world.step(400)
+    assert abs(box.C[1] - 0.005) < 2e-4
+    assert np.abs(box.dq).max() < 1e-3
+
+
+def test_corrections_stay_out_of_velocities() -> None:
+    world = floor()
+    box = world.add_box((0.2, 0.2, 0.2), 1.0, (0.0, 0.08, 0.0))
+    world.set_constraint_solver("iterative")
+    for _ in range(100):
+        world.step()
+        assert abs(box.dC[1]) < 1e-6
+    assert abs(box.C[1] - 0.1) < 2e-4
+
+
+def heap() -> pydart2.World:
+    world = floor()
+    rng = np.random.default_rng(3)
+    for i in range(30):
+        size = rng.uniform(0.05, 0.2, 3)
+        place = (*(rng.uniform(-0.2, 0.2, 2)), 0.0)
+        world.add_box(size, None, (place[0], 0.2 + 0.2 * i, place[1]))
+    world.set_constraint_solver("iterative")
+    world.step(300)
+    return world
+
+
+def test_heap_goes_on_bit_for_bit() -> None:
+    """What is remembered is in snapshots, clones and pickles; reset() forgets it."""
+    world = heap()
+    snapshot = world.snapshot()
+    others = [world.clone(), pickle.loads(pickle.dumps(world))]
+    world.step(100)
+    expected = world.x.tobytes()
+    for other in others:
+        other.step(100)
+        assert other.x.tobytes() == expected
+    world.restore(snapshot)
+    world.step(100)
+    assert world.x.tobytes() == expected
+    assert min(skeleton.C[1] for skeleton in world.skeletons[1:]) > 0.0
+
+
+def test_soft_bodies_go_the_engines_way() -> None:
+    worlds = [pydart2.World(0.001, pydart2.data_path("skel/softBodies.skel")) for _ in range(2)]
+    worlds[0].set_constraint_solver("iterative")
+    worlds[0].set_contact_reduction(False)
+    worlds[0].set_warm_start(False)
+    for world in worlds:
+        world.step(100)
+        assert np.isfinite(world.x).all()
