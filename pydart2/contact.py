@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pydart2 import screen
 from pydart2._native import ContactRow
 
 if TYPE_CHECKING:
@@ -61,9 +62,7 @@ class Contact(ContactRow):
     def render(self, size: float = 0.01, scale: float = -0.005) -> None:
         """Draw a dot of radius `size`, m, and an arrow along the force, `scale` in m/N, with the current OpenGL context
         and matrices."""
-        from pydart2.gui import drawing
-
-        drawing.draw_contact(self, size, scale)
+        screen.draw("contact", self, size, scale)
 
     def __repr__(self) -> str:
         return f"[Contact {self.point} {self.force}]"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -99,11 +99,10 @@ class SimpleFrame(Frame):
 
 def _body(frame: Frame | None) -> BodyNode | None:
     """The body that carries a frame."""
-    from pydart2.bodynode import BodyNode
-
     if isinstance(frame, SimpleFrame):
         return frame.parent
-    return frame if isinstance(frame, BodyNode) else None
+    # Told by what it has and not by its class, as bodies are made of frames.
+    return cast("BodyNode", frame) if hasattr(frame, "skeleton") else None
 
 
 def _spatial(frame: Frame, n: int | None) -> Array:

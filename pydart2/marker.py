@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2 import screen
 from pydart2.state import part_of
 
 if TYPE_CHECKING:
@@ -76,9 +77,7 @@ class Marker:
 
     def render(self) -> None:
         """Draw it with the current OpenGL context and matrices."""
-        from pydart2.gui import drawing
-
-        drawing.draw_marker(self)
+        screen.draw("marker", self)
 
     def __reduce__(self) -> tuple[object, ...]:
         return part_of, (self.skeleton, "markers", self.id)

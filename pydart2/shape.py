@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2 import screen
+
 if TYPE_CHECKING:
     from pydart2._native import ShapeHandle
     from pydart2.bodynode import BodyNode
@@ -84,9 +86,7 @@ class Shape:
 
     def render(self) -> None:
         """Draw it in grey in the axes of the current OpenGL matrices."""
-        from pydart2.gui import drawing
-
-        drawing.draw_shape(self)
+        screen.draw("shape", self)
 
     def __reduce__(self) -> tuple[object, ...]:
         return getattr, (self.shapenode, "shape")

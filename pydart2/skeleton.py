@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2 import contact_forces, spd
+from pydart2 import contact_forces, screen, spd
 from pydart2.bodynode import BodyNode
 from pydart2.building.short_forms import ShortForms
 from pydart2.dof import Dof
@@ -634,15 +634,11 @@ class Skeleton(Dynamics, TargetControl, ShortForms):
 
     def render(self) -> None:
         """Draw it with the current OpenGL context and matrices."""
-        from pydart2.gui import drawing
-
-        drawing.draw_skeleton(self)
+        screen.draw("skeleton", self)
 
     def render_with_color(self, color: ArrayLike) -> None:
         """Draw it in one colour, 3 or 4 numbers, 0 to 1, with the current OpenGL context and matrices."""
-        from pydart2.gui import drawing
-
-        drawing.draw_skeleton(self, color)
+        screen.draw("skeleton", self, color)
 
     def __repr__(self) -> str:
         try:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2 import constraints, contact_forces, manager
+from pydart2 import constraints, contact_forces, manager, screen
 from pydart2._native import WorldHandle
 from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
@@ -629,21 +629,15 @@ class World(WorldBuilding):
         render_contact_force_scale
             Length of the arrows, m/N; negative for the force on the second body.
         """
-        from pydart2.gui import drawing
-
-        drawing.draw_world(self, render_markers, render_contacts, render_contact_size, render_contact_force_scale)
+        screen.draw("world", self, render_markers, render_contacts, render_contact_size, render_contact_force_scale)
 
     def render_markers(self) -> None:
         """Draw the markers with the current OpenGL context and matrices."""
-        from pydart2.gui import drawing
-
-        drawing.draw_markers(self)
+        screen.draw("markers", self)
 
     def render_contacts(self, render_contact_size: float = 0.01, render_contact_force_scale: float = -0.005) -> None:
         """Draw the contacts with the current OpenGL context and matrices; the arguments are those of `render`."""
-        from pydart2.gui import drawing
-
-        drawing.draw_contacts(self, render_contact_size, render_contact_force_scale)
+        screen.draw("contacts", self, render_contact_size, render_contact_force_scale)
 
     def __repr__(self) -> str:
         try:

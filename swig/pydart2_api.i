@@ -46,13 +46,13 @@ from ._pydart2_api import ContactRow, NamedVector
 # The flat functions are made of the handle classes, when the first is wanted. (__path__ is asked for at import.)
 def __getattr__(name):
     if not name.startswith("__"):
-        from .flat_api import MEMBERS
+        from .flat.api import MEMBERS
         globals().update(MEMBERS)
         if name in MEMBERS:
             return MEMBERS[name]
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 def __dir__():
-    from .flat_api import MEMBERS
+    from .flat.api import MEMBERS
     return [*globals(), *MEMBERS]
 %}

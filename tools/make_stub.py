@@ -1,7 +1,7 @@
 """Writes the typed stub of the extension: python make_stub.py HEADERS... STUB.
 
 Its classes are those of the headers that SWIG wraps: every public method of a class that ends in Handle, and of
-ModelSource, is declared on lines of its own there. Its functions are those of pydart2/flat_table.py.
+ModelSource, is declared on lines of its own there. Its functions are those of pydart2/flat/table.py.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-FLAT_TABLE = Path(__file__).parents[1] / "pydart2" / "flat_table.py"
+FLAT_TABLE = Path(__file__).parents[1] / "pydart2" / "flat" / "table.py"
 
 RETURNS = {
     "void": "None",

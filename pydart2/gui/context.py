@@ -66,6 +66,10 @@ def create_context() -> Context:
     raise ContextError(f"{_HELP}. Tried {'; '.join(reasons)}")
 
 
+before_free: list[Callable[[int], object]] = []
+"""Called with the number of a context that is about to be freed, by those who keep something of it."""
+
+
 def free_with(owner: object, context: Context) -> weakref.finalize[..., object]:
     """Have a context freed when its owner is, or by a call of what is returned, or at the end of the process."""
     return weakref.finalize(owner, _free, context, os.getpid())
@@ -74,9 +78,8 @@ def free_with(owner: object, context: Context) -> weakref.finalize[..., object]:
 def _free(context: Context, process: int) -> None:
     if process != os.getpid():
         return  # in a fork, where the driver would hang
-    from pydart2.gui import drawing
-
-    drawing.forget(context.number)
+    for forget in before_free:
+        forget(context.number)
     context.destroy()
 
 

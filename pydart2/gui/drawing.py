@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from OpenGL import GL
 
+from pydart2 import screen
 from pydart2.gui import scene as scenes
-from pydart2.gui.context import ContextError, current_context
+from pydart2.gui.context import ContextError, before_free, current_context
 from pydart2.gui.renderer import SceneRenderer
 from pydart2.gui.scene import Scene
+from pydart2.gui.shapes import add_shapenode
 
 if TYPE_CHECKING:
     from pydart2.contact import Contact
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from pydart2.world import World
 
 _renderers: dict[int, SceneRenderer] = {}
+before_free.append(lambda number: _renderers.pop(number, None))
 
 
 def renderer() -> SceneRenderer:
@@ -42,11 +45,6 @@ def renderer() -> SceneRenderer:
     if found is None or not found.is_alive():  # another context may have got the number of one that is gone
         found = _renderers[context] = SceneRenderer()
     return found
-
-
-def forget(context: int) -> None:
-    """Let go of the renderer of a context that is gone."""
-    _renderers.pop(context, None)
 
 
 def matrices() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -93,6 +91,13 @@ def draw_contact(contact: Contact, size: float, force_scale: float) -> None:
     draw(scene)
 
 
+def draw_contact_row(row: NDArray[np.float64], size: float, force_scale: float) -> None:
+    """Draw a contact of no world, a row of `CollisionResult.rows`."""
+    scene = Scene()
+    scene.add_contacts(row[None], size, force_scale)
+    draw(scene)
+
+
 def draw_skeleton(skel: Skeleton, rgba: ArrayLike | None = None) -> None:
     """Draw a skeleton, all in one colour of 3 or 4 numbers, 0 to 1, if it is given."""
     scene = Scene(scenes.up_of(skel.world))
@@ -109,8 +114,18 @@ def draw_marker(marker: Marker) -> None:
 
 def draw_shape(shape: Shape) -> None:
     """Draw a shape in grey in the axes of OpenGL's model-view matrix."""
-    from pydart2.gui.shapes import add_shapenode
-
     scene = Scene(scenes.up_of(shape.skeleton.world))
     add_shapenode(scene, shape.shapenode, (0.8, 0.8, 0.8, 1.0), pose=np.eye(4))
     draw(scene)
+
+
+screen.drawers.update(
+    {"contact row": draw_contact_row},
+    world=draw_world,
+    markers=draw_markers,
+    contacts=draw_contacts,
+    contact=draw_contact,
+    skeleton=draw_skeleton,
+    marker=draw_marker,
+    shape=draw_shape,
+)

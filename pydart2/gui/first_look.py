@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from pydart2.errors import NameNotFound
 from pydart2.gui.camera import Camera
 from pydart2.gui.camera_control import FIELD_OF_VIEW
-from pydart2.gui.scene import NOBODY, Item, Scene, boxes, from_world
+from pydart2.gui.placing import boxes
+from pydart2.gui.scene import NOBODY, Item, Scene, from_world
 
 #: Where the eye is, as parts of what is ahead of a model, on its left, and up.
 VIEWS = {

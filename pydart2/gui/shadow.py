@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from OpenGL import GL
 
-from pydart2.gui import scene as scenes
-from pydart2.gui import shaders
+from pydart2.gui import placing, shaders
 from pydart2.gui.scene import Item
 
 Matrix = NDArray[np.float64]
@@ -62,9 +61,9 @@ class ShadowMap:
 
         The edges keep to a coarse grid, so that shadows do not flicker when things move.
         """
-        turn = scenes.between(np.zeros(3), light)[:3, :3].T
+        turn = placing.between(np.zeros(3), light)[:3, :3].T
         corners = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1]), axis=-1).reshape(-1, 3)
-        bounds = scenes.boxes(casters)
+        bounds = placing.boxes(casters)
         points = np.where(corners[None], bounds[:, 1, None], bounds[:, 0, None]).reshape(-1, 3) @ turn.T
         low, high = points.min(axis=0), points.max(axis=0)
         size = max(float((high - low)[:2].max()), 1e-3)

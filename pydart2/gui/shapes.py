@@ -13,11 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2.gui import geometry
 from pydart2.gui.geometry import Mesh
-from pydart2.gui.scene import Scene, between, boxes, grid_of
+from pydart2.gui.placing import between, boxes, grid_of
 from pydart2.softbody import SoftBodyNode
 
 if TYPE_CHECKING:
     from pydart2._native import MeshHandle
+    from pydart2.gui.scene import Scene
     from pydart2.shapenode import ShapeNode
 
 Array = NDArray[np.float64]

@@ -37,7 +37,7 @@ from hypothesis import strategies as st
 import pydart2
 from conformance.models import write_zoo
 from oracle.models import dart_data
-from pydart2 import flat_api
+from pydart2.flat import api as flat_api
 
 #: What the documentation promises; anything else is a bug.
 DOCUMENTED = (pydart2.PydartError, ValueError, TypeError, IndexError, KeyError, AttributeError, OverflowError)

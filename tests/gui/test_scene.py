@@ -10,7 +10,8 @@ import pytest
 
 import pydart2
 from pydart2.gui import geometry
-from pydart2.gui.scene import Item, Scene, Show, between, boxes, from_world, up_of
+from pydart2.gui.placing import between, boxes
+from pydart2.gui.scene import Item, Scene, Show, from_world, up_of
 from pydart2.gui.shapes import add_shapenode
 
 from .worlds import GEOMETRIES, body, box, primitives, sphere, textured_board, world_of

@@ -14,7 +14,7 @@ import pytest
 
 import pydart2
 import pydart2.pydart2_api as papi
-from pydart2.flat_table import ROWS
+from pydart2.flat.table import ROWS
 
 CUBES = "./data/skel/cubes.skel"
 
@@ -196,7 +196,7 @@ def test_completion_knows_all() -> None:
         "import pydart2; step = pydart2.papi.world__step",
         "import pydart2.pydart2_api as papi; step = papi.world__step",
         "from pydart2.pydart2_api import world__step as step",
-        "from pydart2 import flat_api; step = flat_api.MEMBERS['world__step']",
+        "from pydart2.flat import api as flat_api; step = flat_api.MEMBERS['world__step']",
         "import _pydart2_api; step = _pydart2_api.world__step",
     ],
 )

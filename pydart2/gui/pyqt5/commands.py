@@ -10,8 +10,8 @@ import numpy as np
 from PyQt5.QtWidgets import QFileDialog
 
 from pydart2.bodynode import BodyNode
+from pydart2.gui.placing import boxes
 from pydart2.gui.pyqt5.actions import SPEEDS
-from pydart2.gui.scene import boxes
 from pydart2.skeleton import Skeleton
 from pydart2.world import World
 

@@ -7,6 +7,7 @@
 #include "collision/fcl_detector.hpp"
 #include "collision/native_detector.hpp"
 #include "collision/ode_detector.hpp"
+#include "engine/protected_members.hpp"
 
 namespace pydart2 {
 
@@ -38,17 +39,11 @@ CollisionDetectorPtr make_detector(const std::string& name)
 void use_detector(ConstraintSolver& solver, const CollisionDetectorPtr& detector)
 {
   // Not by setCollisionDetector(): shapes that change would collide as before, as its group does not follow skeletons.
-  struct Solver : ConstraintSolver
-  {
-    static auto& detector_of(ConstraintSolver& solver) { return solver.*(&Solver::mCollisionDetector); }
-    static auto& group_of(ConstraintSolver& solver) { return solver.*(&Solver::mCollisionGroup); }
-  };
-
   const auto lock = lock_ode();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
-  auto& group = Solver::group_of(solver);
+  auto& group = SolverMembers::group_of(solver);
   group = detector->createCollisionGroupAsSharedPtr();
-  Solver::detector_of(solver) = detector;
+  SolverMembers::detector_of(solver) = detector;
   for (const auto& skeleton : solver.getSkeletons())
     group->subscribeTo(skeleton);
 }

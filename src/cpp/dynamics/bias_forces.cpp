@@ -3,6 +3,8 @@
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/Joint.hpp>
 
+#include "engine/protected_members.hpp"
+
 namespace pydart2 {
 
 const Eigen::VectorXd& BiasForces::update(const LinkTree& tree)

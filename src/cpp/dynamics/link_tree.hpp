@@ -89,11 +89,4 @@ private:
   void add(dart::dynamics::BodyNode& body, int parent);
 };
 
-/// The engine's own memory for M and c, and whether they are out of date. Filling that instead of a second one keeps one
-/// truth, and lets the engine's own bookkeeping say when they have to be computed again.
-struct EngineCache : dart::dynamics::Skeleton
-{
-  static auto& of(dart::dynamics::Skeleton& skeleton) { return skeleton.*(&EngineCache::mSkelCache); }
-};
-
 } // namespace pydart2

@@ -3,6 +3,8 @@
 #include <array>
 #include <dart/dynamics/Joint.hpp>
 
+#include "engine/protected_members.hpp"
+
 namespace pydart2 {
 
 const Eigen::MatrixXd& MassMatrix::update(const LinkTree& tree)

@@ -1,10 +1,9 @@
 #include "handles/engine_info.hpp"
 
 #include <dart/config.hpp>
-#include <dlfcn.h>
-#include <filesystem>
 
 #include "contact/fast_solver.hpp"
+#include "engine/library.hpp"
 
 namespace pydart2 {
 
@@ -15,18 +14,12 @@ std::string engine_version()
 
 bool engine_has_assertions()
 {
-  // BoxedLcpConstraintSolver::isSymmetric(unsigned long, double*) is called by an assertion only and left out without.
-  return dlsym(RTLD_DEFAULT, "_ZN4dart10constraint24BoxedLcpConstraintSolver11isSymmetricEmPd") != nullptr;
+  return engine::has_assertions();
 }
 
 std::string engine_prefix()
 {
-  Dl_info library{};
-  const auto* function = reinterpret_cast<const void*>(&dart::constraint::ConstraintBase::compressPath);
-  if (dladdr(function, &library) == 0 || library.dli_fname == nullptr)
-    return "";
-  const auto path = std::filesystem::weakly_canonical(library.dli_fname).string(); // /lib is a link to /usr/lib
-  return path.substr(0, path.rfind("/lib/"));
+  return engine::prefix();
 }
 
 std::string default_solver_name()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pydart2 import screen
 from pydart2._native import WorldHandle
 from pydart2.collision_result import CollisionResult
 from pydart2.world import World
@@ -52,15 +53,10 @@ def shape__render(wid: int, skid: int, bid: int, sid: int) -> None:
 
 def collisionresult__renderContact(state: ArrayLike, size: float, scale: float) -> None:  # noqa: N802
     """collisionresult__renderContact(state, size, scale) -> None: Draw a contact: point (3, m) and force (3, N)."""
-    from pydart2.gui import drawing
-    from pydart2.gui.scene import Scene
-
     numbers = np.asarray(state, dtype=float)
     if numbers.shape != (6,):
         raise ValueError(f"state needs shape (6,), got {numbers.shape}")
-    scene = Scene()
-    scene.add_contacts(numbers[None], size, scale)
-    drawing.draw(scene)
+    screen.draw("contact row", numbers, size, scale)
 
 
 FUNCTIONS = (

@@ -1,7 +1,7 @@
 """The flat functions, one a line: ``name(parameters) -> result``.
 
 The object that the ids find has a method of the function's own name in snake case without "get", or of the name behind
-``=``; with a leading underscore that is a function of `flat_api`. ``: text`` is the docstring where `World`, `Skeleton`
+``=``; with a leading underscore that is a function of `api`. ``: text`` is the docstring where `World`, `Skeleton`
 and so on have no method of this name. For a joint, `index` is one of its dofs.
 """
 

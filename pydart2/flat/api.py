@@ -5,8 +5,8 @@
 >>> papi.world__getTime(wid)
 0.0
 
-`flat_table` lists them. A result of variable length takes its length as the last argument; `out` is filled in place.
-What cannot be done raises. Drawing (`*__render*`) is in `flat_drawing`.
+`table` lists them. A result of variable length takes its length as the last argument; `out` is filled in place.
+What cannot be done raises. Drawing (`*__render*`) is in `drawing`.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from pydart2._native import (
     WorldHandle,
     restart,
 )
-from pydart2.flat_drawing import FUNCTIONS as DRAWING
-from pydart2.flat_table import ROWS, Row
+from pydart2.flat.drawing import FUNCTIONS as DRAWING
+from pydart2.flat.table import ROWS, Row
 from pydart2.loading import read_model
 from pydart2.manager import set_verbose as _set_verbose  # noqa: F401 (named in the table)
 from pydart2.manager import verbose as _verbose  # noqa: F401

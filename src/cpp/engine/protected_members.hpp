@@ -1,0 +1,23 @@
+#pragma once
+
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/dynamics/Skeleton.hpp>
+
+/// Protected members of DART 6.12's classes, reached as a derived class may. A version that renames one does not compile.
+namespace pydart2 {
+
+/// The engine's own memory for M and c, and whether they are out of date. Filling that instead of a second one keeps one
+/// truth, and lets the engine's own bookkeeping say when they have to be computed again.
+struct EngineCache : dart::dynamics::Skeleton
+{
+  static auto& of(dart::dynamics::Skeleton& skeleton) { return skeleton.*(&EngineCache::mSkelCache); }
+};
+
+/// A constraint solver's detector and the group of what collides.
+struct SolverMembers : dart::constraint::ConstraintSolver
+{
+  static auto& detector_of(ConstraintSolver& solver) { return solver.*(&SolverMembers::mCollisionDetector); }
+  static auto& group_of(ConstraintSolver& solver) { return solver.*(&SolverMembers::mCollisionGroup); }
+};
+
+} // namespace pydart2
