@@ -21,6 +21,7 @@ from pydart2.marker import Marker
 from pydart2.skel_vector import SkelVector
 from pydart2.softbody import SoftBodyNode
 from pydart2.state import part_of
+from pydart2.targets import TargetControl
 
 if TYPE_CHECKING:
     import os
