@@ -490,7 +490,8 @@ class World(WorldBuilding):
         before = self._handle.constraint_solver()
         if name == "iterative":
             self._handle.set_iterative_options(np.array(numbers))
-        self._handle.set_constraint_solver(name)
+        else:
+            self._handle.set_constraint_solver(name)
         if "iterative" in (before, name) and before != name:
             self._handle.set_warm_start(name == "iterative")
             self._handle.set_contact_reduction(name == "iterative")

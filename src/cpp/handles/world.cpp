@@ -254,7 +254,9 @@ std::string WorldHandle::constraint_solver() const
 
 void WorldHandle::set_constraint_solver(const std::string& name)
 {
-  fast_solver(*world().world).set_solver(solver_named(name));
+  auto& solver = fast_solver(*world().world);
+  solver.set_solver(solver_named(name));
+  solver.iterative().options = {}; // they belong to the choice
 }
 
 void WorldHandle::iterative_options(Output& out) const
@@ -265,8 +267,9 @@ void WorldHandle::iterative_options(Output& out) const
 
 void WorldHandle::set_iterative_options(const VectorIn& options)
 {
-  fast_solver(*world().world).iterative().options
-      = options_of(Eigen::Map<const Eigen::VectorXd>(options.data, options.size));
+  auto& solver = fast_solver(*world().world);
+  solver.iterative().options = options_of(options.eigen());
+  solver.set_solver(Solver::iterative);
 }
 
 int WorldHandle::solver_iterations() const

@@ -69,6 +69,7 @@ public:
   void set_constraint_solver(const std::string& name);
 
   /// Iterations, tolerance, friction (0 pyramid, 1 cone, 2 engine), split, error reduction, allowance, correction speed.
+  /// Setting them chooses the iterative solver; choosing a solver by its name sets them back.
   void iterative_options(Output& out) const;
   void set_iterative_options(const VectorIn& options);
 
