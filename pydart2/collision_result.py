@@ -99,6 +99,15 @@ class CollisionResult:
         """Forget the contacts."""
         self._looked = _Contacts(self.world, np.empty((0, _COLUMNS)))
 
+    def _forget_skeleton(self, index: int) -> None:
+        """Keep naming the right bodies when a skeleton goes: -1 where it was, and new ids for those behind it."""
+        rows = self.rows
+        for skeleton, body, shape in ((6, 7, 10), (8, 9, 11)):
+            gone = rows[:, skeleton] == index
+            rows[rows[:, skeleton] > index, skeleton] -= 1
+            rows[np.ix_(gone, [skeleton, body, shape])] = -1
+        self._looked = _Contacts(self.world, rows)
+
     def _look(self) -> _Contacts:
         if self._looked is None:
             self._looked = _Contacts(self.world, self.world._handle.contacts())

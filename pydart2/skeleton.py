@@ -101,18 +101,27 @@ class Skeleton(Dynamics, TargetControl, ShortForms):
         self.world = _world
         self.friction = _friction
         self.filename: str | None = None
+        loaded = False
         if _filename is not None:
             from pydart2.loading import read_model
 
             model = read_model(_filename)
             self.filename = model.document.path
             _id = model.add_to(_world._handle)
+            loaded = True
         if _id is None:
             raise TypeError("Skeleton() needs a file name or an id")
         self.id = _id
         self._controller: Controller | None = None
         self._tau: SkelVector | None = None
-        self.build()
+        try:
+            self.build()
+        except BaseException:
+            if loaded:
+                _world._go_back(_id)
+            raise
+        if loaded:
+            _world._append(self)
 
     @classmethod
     def _of_world(cls, world: World, index: int) -> Skeleton:

@@ -16,7 +16,7 @@ from pydart2._native import WorldHandle
 from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
-from pydart2.errors import DestroyedError, NameNotFound
+from pydart2.errors import DestroyedError, NameNotFound, SimulationError
 from pydart2.recording import Recording
 from pydart2.skeleton import Skeleton, _compute_of
 from pydart2.state import Snapshot, model_hash
@@ -214,13 +214,28 @@ class World(WorldBuilding):
         from pydart2.loading import Options, read_model
 
         model = read_model(filename, Options(packages, missing_meshes, safe, reader=reader))
-        skel = (CLASS or self.CLASS_SKELETON)(self, _filename=model)
-        self._append(skel)
-        return skel
+        before = self._handle.num_skeletons()
+        try:
+            return (CLASS or self.CLASS_SKELETON)(self, _filename=model)
+        except BaseException:
+            self._go_back(before)
+            raise
+
+    def _go_back(self, num_skeletons: int) -> None:
+        """Take out what came last, of which no Python object could be made."""
+        del self.skeletons[num_skeletons:]
+        while self._handle.num_skeletons() > num_skeletons:
+            self._handle.remove_skeleton(self._handle.num_skeletons() - 1)
+        self._find_controllers()
 
     def add_skeleton_from_id(self, _skel_id: int) -> Skeleton:
         """Make an object for a skeleton that the engine's world has already."""
-        skel = self.CLASS_SKELETON(self, _id=_skel_id)
+        try:
+            skel = self.CLASS_SKELETON(self, _id=_skel_id)
+        except BaseException:
+            if _skel_id == len(self.skeletons):
+                self._go_back(_skel_id)
+            raise
         self._append(skel)
         return skel
 
@@ -230,10 +245,15 @@ class World(WorldBuilding):
             self._find_controllers()
 
     def remove_skeleton(self, skel: Skeleton) -> None:
-        """Take a skeleton out of the world, with the constraints that hold it; it can no longer be used."""
+        """Take a skeleton out of the world, with the constraints that hold it; it can no longer be used.
+
+        Contacts that it had stay in `collision_result` and in the recording, without a body on its side.
+        """
         if skel not in self.skeletons:
             raise ValueError(f"{skel!r} is not in {self!r}")
+        self.collision_result._look()  # the engine forgets them
         self._handle.remove_skeleton(skel.id)
+        self.collision_result._forget_skeleton(skel.id)
         self.skeletons.remove(skel)
         for i, other in enumerate(self.skeletons):
             other.id = i
@@ -300,15 +320,20 @@ class World(WorldBuilding):
         """Simulate `n` time steps.
 
         Before each, skeletons with a controller get the forces that it computes. Forces and external forces act in one
-        step and are cleared after it.
+        step and are cleared after it. If the simulation blows up, the world is as before the failed step, without
+        contacts, and SimulationError is raised.
         """
-        if self._controlled and n > 0:
-            for _ in range(n):
-                for skel, compute in self._controlled:
-                    skel.tau = compute()
-                self._step(1)
-        else:
-            self._step(n)
+        try:
+            if self._controlled and n > 0:
+                for _ in range(n):
+                    for skel, compute in self._controlled:
+                        skel.tau = compute()
+                    self._step(1)
+            else:
+                self._step(n)
+        except SimulationError:
+            self.collision_result.update()
+            raise
         self.collision_result._looked = None  # as update(), without the call
 
     def _find_controllers(self) -> None:

@@ -153,6 +153,7 @@ void WorldHandle::remove_skeleton(long index)
   ++record.skeletons[i]->structure; // parts of a skeleton without a world are refused
   ++record.layout;
   record.skeletons.erase(record.skeletons.begin() + static_cast<long>(i));
+  record.recording.each_contact([i](double* row) { forget_skeleton(row, static_cast<int>(i)); });
 }
 
 double WorldHandle::time() const

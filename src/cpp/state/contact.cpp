@@ -62,6 +62,17 @@ void write_contacts(const WorldRecord& world, double* out)
   }
 }
 
+void forget_skeleton(double* row, int index)
+{
+  for (const int side : {0, 1}) {
+    double &skeleton = row[6 + 2 * side], &body = row[7 + 2 * side], &shape = row[10 + side];
+    if (skeleton == index)
+      skeleton = body = shape = -1.0;
+    else if (skeleton > index)
+      --skeleton;
+  }
+}
+
 void check_collision(WorldRecord& world)
 {
   std::vector<Eigen::VectorXd> impulses;

@@ -16,6 +16,9 @@ std::size_t num_contacts(const WorldRecord& world);
 /// In the engine's order, one row each.
 void write_contacts(const WorldRecord& world, double* rows);
 
+/// A packed contact after a skeleton was removed: -1 where it was, and the new indices of those behind it.
+void forget_skeleton(double* row, int index);
+
 /// Runs collision detection and solves for the contact forces without a step, and leaves no impulse behind.
 void check_collision(WorldRecord& world);
 

@@ -58,6 +58,13 @@ const Frame* Recording::find(long index) const
   return &frames_[static_cast<std::size_t>(index - first_)];
 }
 
+void Recording::each_contact(const std::function<void(double*)>& change)
+{
+  for (const auto& frame : frames_)
+    for (std::size_t i = 0; i < frame.num_contacts; ++i)
+      change(frame.contacts() + i * contact_columns);
+}
+
 void Recording::set_limit(std::size_t bytes)
 {
   limit_ = bytes;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <memory>
 
 namespace pydart2 {
@@ -39,6 +40,9 @@ public:
 
   /// The frame, or null if it is gone or was never there.
   const Frame* find(long index) const;
+
+  /// Changes the contacts of all frames, row by row.
+  void each_contact(const std::function<void(double*)>& change);
 
   std::size_t bytes() const { return bytes_; }
   std::size_t limit() const { return limit_; }
