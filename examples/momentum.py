@@ -5,28 +5,22 @@ from _headless import arguments, rehearse
 
 import pydart2 as pydart
 
-
-class Wave:
-    """Swings the shoulders to and fro."""
-
-    def __init__(self, skel: pydart.Skeleton) -> None:
-        self.skel = skel
-
-    def compute(self) -> object:
-        """Forces, N m."""
-        tau = np.zeros(self.skel.ndofs)
-        tau[self.skel.dof_indices(["j_bicep_left_z", "j_bicep_right_z"])] = 2.0 * np.sin(10.0 * self.skel.world.t)
-        return tau
-
-
 if __name__ == "__main__":
     args = arguments()
     world = pydart.World(1e-4, "./data/skel/fullbody1.skel")
     human = world.skeletons[1]
     human.set_positions({"j_pelvis_pos_y": 3.0})
     human.set_velocities({"j_pelvis_rot_z": 1.0})
-    human.set_controller(Wave(human))
+    arms = human.dof_indices(["j_bicep_left_z", "j_bicep_right_z"])
     before = human.centroidal_momentum()
+
+    def wave() -> np.ndarray:
+        """Forces that swing the shoulders to and fro, N m."""
+        tau = np.zeros(human.ndofs)
+        tau[arms] = 2.0 * np.sin(10.0 * world.t)
+        return tau
+
+    human.set_controller(wave)
 
     def check() -> dict[str, bool]:
         """Gravity does not turn a body."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pydart2.building.skeletons import SkeletonBuilding
-from pydart2.utils.transformations import euler_matrix
 
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
@@ -23,6 +22,13 @@ def joint_of(joint_type: str) -> tuple[str, list[tuple[float, float, float]] | N
     if not all(letter in _AXES for letter in letters):
         raise ValueError(f"no joint type {joint_type!r}; axes are named as in 'REVOLUTE_X'")
     return kind, [_AXES[letter] for letter in letters] or None
+
+
+def _turned(angles: ArrayLike) -> NDArray[np.float64]:
+    """The rotation, shape (3, 3), by angles about the fixed x, y, z, shape (3,), rad."""
+    from pydart2.utils.transformations import euler_matrix  # which imports SciPy
+
+    return euler_matrix(*np.asarray(angles, float))[:3, :3]
 
 
 class ShortForms(SkeletonBuilding):
@@ -55,9 +61,7 @@ class ShortForms(SkeletonBuilding):
             By default that of the body, ``body3`` for the fourth.
         """
         body = self._add_short(parent, joint_loc, joint_type, joint_name)
-        body.add_capsule(
-            radius, length, position=cap_offset, orientation=euler_matrix(*np.asarray(cap_rot, float))[:3, :3]
-        )
+        body.add_capsule(radius, length, position=cap_offset, orientation=_turned(cap_rot))
         return body
 
     def add_weld_box(
@@ -74,7 +78,7 @@ class ShortForms(SkeletonBuilding):
         `box_rot`, shape (3,), rad: angles of the box about the fixed x, y, z.
         """
         body = self._add_short(None, joint_loc, "WELD", joint_name)
-        body.add_box((width, length, height), orientation=euler_matrix(*np.asarray(box_rot, float))[:3, :3])
+        body.add_box((width, length, height), orientation=_turned(box_rot))
         return body
 
     def _add_short(

@@ -15,7 +15,7 @@ from pydart2.world import _DETECTORS
 
 _SECONDS = 0.5  # of each measurement
 _AT_ONCE = 20  # steps
-_SOLVERS = ("fast", "dart")
+_SOLVERS = ("fast", "dart", "iterative")
 
 
 def add(commands: Any) -> None:
@@ -31,7 +31,7 @@ def run(args: argparse.Namespace) -> Report:
     world = open_world(args.file)
     world.disable_recording()
     own = world.collision_detector(), world.constraint_solver()
-    others = [(d, s) for d in range(len(_DETECTORS)) for s in _SOLVERS if (d, s) != own]
+    others = [(d, s) for d in _DETECTORS for s in _SOLVERS if (d, s) != own]
     rows = [_measure(world.clone(), *choice) for choice in progress([own, *others], "measuring", "world")]
     free = world.clone()
     for skel in free.skeletons:

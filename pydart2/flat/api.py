@@ -102,14 +102,15 @@ def _index_of_first_dof(handle: WorldHandle, i: int) -> int:
 
 
 def _set_collision_detector(handle: WorldHandle, detector_type: int) -> None:
-    """Set the detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE) 4 (native); ValueError for any other."""
-    handle.set_collision_detector(_named(world._DETECTORS, detector_type, "collision detector"))
+    """Set the detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE) 10 (native); ValueError for any other."""
+    if detector_type not in world._DETECTORS:
+        raise ValueError(f"no collision detector {detector_type!r}; they are {', '.join(map(str, world._DETECTORS))}")
+    handle.set_collision_detector(world._DETECTORS[detector_type])
 
 
 def _collision_detector(handle: WorldHandle) -> int:
-    """The detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE) 4 (native), -1 for another."""
-    name = handle.collision_detector()
-    return world._DETECTORS.index(name) if name in world._DETECTORS else -1
+    """The detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE) 10 (native), -1 for another."""
+    return world.detector_number(handle.collision_detector())
 
 
 def _contacts(handle: WorldHandle) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ import numpy as np
 import pydart2
 from oracle.models import dart_model
 
-DETECTORS = range(5)
+DETECTORS = (0, 1, 2, 3, 10)
 MODELS = ("fullbody1", "soft_cubes")
 
 

@@ -102,6 +102,8 @@ def another(value: object) -> object:
         return {"XYZ": "ZYX", "ZYX": "XYZ", "FORCE": "SERVO", "fcl": "bullet", "dart": "fcl", "fast": "dart"}.get(
             value, value + " 2"
         )
+    if isinstance(value, int):
+        return value + 3
     array = np.asarray(value)
     if array.shape == (4, 4):
         return array @ np.array([[0, -1, 0, 0.1], [1, 0, 0, 0.2], [0, 0, 1, 0.3], [0, 0, 0, 1.0]])

@@ -27,7 +27,7 @@ def world(tmp_path: Path) -> pydart2.World:
     return make_world(tmp_path, floor(), low, high)
 
 
-@pytest.mark.parametrize("detector", range(5))
+@pytest.mark.parametrize("detector", (0, 1, 2, 3, 10))
 def test_one_contact(world: pydart2.World, detector: int) -> None:
     world.set_collision_detector(detector)
     world.check_collision()
@@ -233,7 +233,7 @@ for change in ([5, 1, 6, 2], [1, 5, 3], [0, 1, 2, 3, 4, 5, 6, 7]):
 """
 
 
-@pytest.mark.parametrize("detector", range(5))
+@pytest.mark.parametrize("detector", (0, 1, 2, 3, 10))
 @pytest.mark.parametrize("when", ["before", "after"])
 def test_contacts_of_shapes_that_grow(tmp_path: Path, detector: int, when: str) -> None:
     """They are found and name the bodies, be the detector chosen before the bodies come or after. With the engine's own
@@ -255,16 +255,16 @@ SHAPES = {
     "pyramid": "<pyramid><base_width>1</base_width><base_depth>1</base_depth><height>1</height></pyramid>",
     "multi-sphere": "<multi_sphere><sphere><radius>0.5</radius><position>0 0 0</position></sphere></multi_sphere>",
 }
-HAS = [
-    {"box", "sphere"},
-    {"box", "sphere", "ellipsoid", "cylinder", "cone", "pyramid"},
-    set(SHAPES) - {"pyramid"},
-    {"box", "sphere", "cylinder", "capsule"},
-    set(SHAPES),
-]
+HAS = {
+    0: {"box", "sphere"},
+    1: {"box", "sphere", "ellipsoid", "cylinder", "cone", "pyramid"},
+    2: set(SHAPES) - {"pyramid"},
+    3: {"box", "sphere", "cylinder", "capsule"},
+    10: set(SHAPES),
+}
 
 
-@pytest.mark.parametrize("detector", range(5))
+@pytest.mark.parametrize("detector", HAS)
 def test_shapes_that_a_detector_has(tmp_path: Path, detector: int) -> None:
     """As docs/concepts.md says."""
     found = set()

@@ -46,7 +46,7 @@ def digests(detector: int, threads: int, hash_seed: str, padding: int) -> list[s
     return next(line for line in done.stdout.splitlines() if line.startswith("= ")).split()[1:]
 
 
-@pytest.mark.parametrize("detector", range(5))
+@pytest.mark.parametrize("detector", (0, 1, 2, 3, 10))
 def test_same_seed_same_numbers(detector: int) -> None:
     seen = digests(detector, 1, "0", 0) + digests(detector, 1, "123", 5000) + digests(detector, 3, "7", 77)
     assert len(seen) == 6 and len(set(seen)) == 1

@@ -98,7 +98,7 @@ def test_a_length_must_be_the_real_one() -> None:
 
 def test_out_must_fit() -> None:
     wid = papi.createWorldFromSkel(CUBES)
-    with pytest.raises(ValueError, match=r"shape \(6, 6\), got \(6, 5\)"):
+    with pytest.raises(ValueError, match=r"of shape \(6, 6\), got one of shape \(6, 5\)"):
         papi.skeleton__getMassMatrix(wid, 1, np.zeros((6, 5)))
     with pytest.raises(TypeError, match="float64"):
         papi.skeleton__getMassMatrix(wid, 1, np.zeros((6, 6), dtype=np.float32))

@@ -207,7 +207,7 @@ def test_use_after_remove_skeleton() -> None:
 def test_removed_while_it_touches_and_is_held() -> None:
     run("""
     from physics.models import box, free_body
-    for detector in range(5):
+    for detector in (0, 1, 2, 3, 10):
         world = new(floor(), free_body(shape=box((1, 1, 1)), at=(0, 0.49, 0, 0, 0, 0)), pendulum())
         world.set_collision_detector(detector)
         ground, cube, other = world.skeletons

@@ -98,7 +98,7 @@ def test_what_the_engine_refuses_in_a_step_names_the_fastest_dof(fullbody: pydar
     fullbody.step(10)
 
 
-@pytest.mark.parametrize("detector", range(5))
+@pytest.mark.parametrize("detector", (0, 1, 2, 3, 10))
 def test_far_away(tmp_path: Path, detector: int) -> None:
     """ODE would end the process; the others would find contacts without a direction."""
     world = make_world(tmp_path, floor(), free_body(shape=box((1, 1, 1))))

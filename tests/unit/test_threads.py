@@ -92,7 +92,7 @@ def test_many_threads_on_one_world(tmp_path: Path) -> None:
     assert wrong == [] and world.frame == sum(done) > 0
 
 
-@pytest.mark.parametrize("detector", range(5))
+@pytest.mark.parametrize("detector", (0, 1, 2, 3, 10))
 def test_worlds_in_threads_end_as_alone(detector: int) -> None:
     """Bit for bit, with worlds made, cloned and freed at the same time."""
 

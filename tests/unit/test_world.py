@@ -216,9 +216,9 @@ def test_remove_skeleton(tmp_path: Path) -> None:
         world.remove_skeleton(first)
 
 
-@pytest.mark.parametrize("detector", range(5))
+@pytest.mark.parametrize("detector", (0, 1, 2, 3, 10))
 def test_collision_detectors(cubes: pydart2.World, detector: int) -> None:
-    names = ["DART", "FCL", "BULLET", "ODE", "NATIVE"]
+    names = {0: "DART", 1: "FCL", 2: "BULLET", 3: "ODE", 10: "NATIVE"}
     cubes.set_collision_detector(detector)
     assert cubes.collision_detector() == detector
     assert cubes.collision_detector_string() == f"{names[detector]}_COLLISION_DETECTOR"
@@ -230,7 +230,7 @@ def test_collision_detectors(cubes: pydart2.World, detector: int) -> None:
 
 def test_detector_can_change_while_contacts_exist(cubes: pydart2.World) -> None:
     cubes.step(20)
-    for detector in (1, 2, 3, 4, 0):
+    for detector in (1, 2, 3, 10, 0):
         cubes.set_collision_detector(detector)
         assert cubes.collision_result.num_contacts() >= 0
         cubes.step()
@@ -257,7 +257,7 @@ def test_same_world_twice_is_the_same_run() -> None:
     np.testing.assert_array_equal(*runs)
 
 
-@pytest.mark.parametrize("detector", range(5))
+@pytest.mark.parametrize("detector", (0, 1, 2, 3, 10))
 def test_nothing_rests_on_a_removed_ground(detector: int) -> None:
     """Also where the world's detector was chosen, and where something still holds the ground."""
     world = pydart2.World(0.001, pydart2.data_path("skel/cubes.skel"))
