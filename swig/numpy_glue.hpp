@@ -4,6 +4,11 @@
 #include <numpy/arrayobject.h>
 #include <numpy/arrayscalars.h>
 
+#include <cxxabi.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
@@ -106,12 +111,39 @@ private:
 class WithoutGil
 {
 public:
-  WithoutGil() : state_(PyEval_SaveThread()) {}
-  ~WithoutGil() { PyEval_RestoreThread(state_); }
+  WithoutGil() : state_(PyEval_SaveThread()) { ++running; }
+  ~WithoutGil()
+  {
+    take_back();
+    --running;
+  }
   WithoutGil(const WithoutGil&) = delete;
   WithoutGil& operator=(const WithoutGil&) = delete;
 
+  /// Ends a process whose interpreter has ended: with a daemon thread still inside a long call, it ends here, before the
+  /// libraries take down what that thread uses.
+  static void at_exit(int status, void*)
+  {
+    if (running == 0)
+      return;
+    std::fflush(nullptr);
+    _exit(status);
+  }
+
 private:
+  /// When the interpreter has ended it ends the thread by unwinding it, which may not pass a destructor nor our handlers:
+  /// the thread waits for the end of the process instead, as all do from Python 3.14 on.
+  void take_back()
+  {
+    try {
+      PyEval_RestoreThread(state_);
+    } catch (const abi::__forced_unwind&) {
+      for (;;)
+        pause();
+    }
+  }
+
+  inline static std::atomic<int> running{0};
   PyThreadState* state_;
 };
 

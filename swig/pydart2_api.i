@@ -4,18 +4,23 @@
 %{
 #define PY_ARRAY_UNIQUE_SYMBOL pydart2_ARRAY_API
 #include "engine/assertions.hpp"
+#include "engine/boxed_lcp.hpp"
 #include "engine/shared_scenes.hpp"
 #include "numpy_glue.hpp"
+#include "python/last_words.hpp"
 %}
 
 %init %{
   import_array();
   pydart2::make_assertions_throw();
+  pydart2::make_asymmetry_throw();
   if (!pydart2::share_scenes()) {
     PyErr_SetString(PyExc_ImportError, "the engine's libraries do not import meshes as those of DART 6.12 do");
     return nullptr;
   }
   pydart2::messages::install();
+  pydart2::python::set_last_words();
+  on_exit(pydart2::python::WithoutGil::at_exit, nullptr);
   PyModule_AddObject(m, "NamedVector", pydart2::named_vector::make_type());
   PyModule_AddObject(m, "ContactRow", pydart2::contact_row::make_type());
 %}

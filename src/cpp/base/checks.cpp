@@ -70,10 +70,16 @@ void finite(const Eigen::Vector3d& values, const char* what)
   finite(VectorIn{values.data(), 3}, what);
 }
 
-void not_nan(double value, const char* what)
+void lower_limit(double value, const char* what)
 {
-  if (std::isnan(value))
-    refuse(Kind::value, what, "must be a number, got nan");
+  if (!(value <= huge))
+    refuse(Kind::value, what, "must be a number or -inf, got " + text(value));
+}
+
+void upper_limit(double value, const char* what)
+{
+  if (!(value >= -huge))
+    refuse(Kind::value, what, "must be a number or inf, got " + text(value));
 }
 
 void positive(double value, const char* what)

@@ -26,8 +26,10 @@ void finite(double value, const char* what);
 void finite(const VectorIn& values, const char* what);
 void finite(const Eigen::Vector3d& values, const char* what);
 
-/// A number that may be infinite (a limit), but not NaN.
-void not_nan(double value, const char* what);
+/// The bounds of a range: any number, and infinite where there is none on that side. Which is the larger is not asked:
+/// one is often set before the other.
+void lower_limit(double value, const char* what);
+void upper_limit(double value, const char* what);
 
 /// Finite and > 0, or >= 0; ValueError otherwise.
 void positive(double value, const char* what);

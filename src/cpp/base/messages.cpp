@@ -4,11 +4,12 @@
 #include <cctype>
 #include <iostream>
 #include <iterator>
-#include <mutex>
 #include <streambuf>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+
+#include "base/fork.hpp"
 
 namespace pydart2::messages {
 
@@ -55,7 +56,7 @@ public:
   long add(std::string text)
   {
     text.erase(std::remove_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); }), text.end());
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     if (counts_.size() >= max_kinds)
       counts_.clear();
     return ++counts_[std::move(text)];
@@ -63,12 +64,12 @@ public:
 
   void clear()
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     counts_.clear();
   }
 
 private:
-  std::mutex mutex_;
+  HeldOverFork<std::mutex> mutex_{ForkOrder::innermost};
   std::unordered_map<std::string, long> counts_;
 };
 

@@ -14,9 +14,9 @@ namespace pydart2 {
 using namespace dart::collision;
 using dart::constraint::ConstraintSolver;
 
-std::unique_lock<std::recursive_mutex> lock_ode()
+std::unique_lock<OdeMutex> lock_ode()
 {
-  static std::recursive_mutex mutex;
+  static OdeMutex mutex(ForkOrder::ode);
   return std::unique_lock(mutex);
 }
 

@@ -6,12 +6,14 @@
 #include <string>
 
 #include "base/archive.hpp"
+#include "base/fork.hpp"
 
 namespace pydart2 {
 
 /// ODE keeps data per process: to be held where a world with its detector is made, used or freed. While it is held no
 /// lock may be taken but those of shared_scenes.cpp and fcl_detector.cpp, under which nothing else is taken.
-std::unique_lock<std::recursive_mutex> lock_ode();
+using OdeMutex = HeldOverFork<std::recursive_mutex>;
+std::unique_lock<OdeMutex> lock_ode();
 
 /// What `make` makes from a file, which may ask for ODE.
 template <class Make>

@@ -11,12 +11,12 @@
 #include <dart/dynamics/SphereShape.hpp>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <map>
-#include <mutex>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/fork.hpp"
 #include "engine/shared_scenes.hpp"
 
 namespace pydart2 {
@@ -188,7 +188,7 @@ private:
     clear_above_ = 2 * trees_.size() + 100;
   }
 
-  std::mutex mutex_;
+  HeldOverFork<std::mutex> mutex_{ForkOrder::innermost};
   std::map<Recipe, std::weak_ptr<const Tree>> trees_;
   std::size_t clear_above_ = 100;
 };

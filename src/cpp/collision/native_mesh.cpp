@@ -4,9 +4,9 @@
 #include <dart/dynamics/MeshShape.hpp>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <tuple>
 
+#include "base/fork.hpp"
 #include "engine/shared_scenes.hpp"
 
 namespace pydart2::native {
@@ -213,7 +213,7 @@ struct Made
 Geometry shared(const MeshShape& shape)
 {
   using Key = std::tuple<const aiScene*, double, double, double>;
-  static std::mutex mutex;
+  static HeldOverFork<std::mutex> mutex(ForkOrder::meshes);
   static std::map<Key, std::weak_ptr<Made>> all;
   if (!take_scene(shape.getMesh()))
     return imported(shape);

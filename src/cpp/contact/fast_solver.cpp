@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "contact/contact_reduction.hpp"
+#include "engine/boxed_lcp.hpp"
 
 namespace pydart2 {
 
@@ -112,6 +113,7 @@ void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
     keep_extremal_contacts(group);
   if (solver_ == Solver::dart || shared_) {
     check_memory(group);
+    remove_empty_constraints(group);
     BoxedLcpConstraintSolver::solveConstrainedGroup(group);
     return;
   }

@@ -11,10 +11,10 @@
 #include <functional>
 #include <list>
 #include <map>
-#include <mutex>
 #include <string>
 #include <utility>
 
+#include "base/fork.hpp"
 #include "engine/import_table.hpp"
 
 namespace pydart2 {
@@ -149,7 +149,7 @@ private:
     });
   }
 
-  std::mutex mutex_;
+  HeldOverFork<std::mutex> mutex_{ForkOrder::innermost};
   std::list<Shared> scenes_;
 };
 

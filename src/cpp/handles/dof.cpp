@@ -68,8 +68,9 @@ double DofHandle::position_lower_limit() const
 
 void DofHandle::set_position_lower_limit(double limit)
 {
-  check::not_nan(limit, "position limit");
+  check::lower_limit(limit, "lower position limit");
   dof_->setPositionLowerLimit(limit);
+  dof_.skeleton->limits_checked = false;
 }
 
 double DofHandle::position_upper_limit() const
@@ -79,8 +80,9 @@ double DofHandle::position_upper_limit() const
 
 void DofHandle::set_position_upper_limit(double limit)
 {
-  check::not_nan(limit, "position limit");
+  check::upper_limit(limit, "upper position limit");
   dof_->setPositionUpperLimit(limit);
+  dof_.skeleton->limits_checked = false;
 }
 
 double DofHandle::velocity() const
@@ -112,8 +114,9 @@ double DofHandle::velocity_lower_limit() const
 
 void DofHandle::set_velocity_lower_limit(double limit)
 {
-  check::not_nan(limit, "velocity limit");
+  check::lower_limit(limit, "lower velocity limit");
   dof_->setVelocityLowerLimit(limit);
+  dof_.skeleton->limits_checked = false;
 }
 
 double DofHandle::velocity_upper_limit() const
@@ -123,8 +126,9 @@ double DofHandle::velocity_upper_limit() const
 
 void DofHandle::set_velocity_upper_limit(double limit)
 {
-  check::not_nan(limit, "velocity limit");
+  check::upper_limit(limit, "upper velocity limit");
   dof_->setVelocityUpperLimit(limit);
+  dof_.skeleton->limits_checked = false;
 }
 
 double DofHandle::acceleration() const
@@ -156,8 +160,9 @@ double DofHandle::force_lower_limit() const
 
 void DofHandle::set_force_lower_limit(double limit)
 {
-  check::not_nan(limit, "force limit");
+  check::lower_limit(limit, "lower force limit");
   dof_->setForceLowerLimit(limit);
+  dof_.skeleton->limits_checked = false;
 }
 
 double DofHandle::force_upper_limit() const
@@ -167,8 +172,9 @@ double DofHandle::force_upper_limit() const
 
 void DofHandle::set_force_upper_limit(double limit)
 {
-  check::not_nan(limit, "force limit");
+  check::upper_limit(limit, "upper force limit");
   dof_->setForceUpperLimit(limit);
+  dof_.skeleton->limits_checked = false;
 }
 
 double DofHandle::command() const

@@ -102,6 +102,7 @@ void JointHandle::set_actuator_type(const std::string& type)
   for (const auto& [value, name] : actuators)
     if (name == type) {
       joint_->setActuatorType(value);
+      joint_.skeleton->limits_checked = false;
       return;
     }
   throw Error(Kind::value, "no actuator type '" + type + "'");
@@ -117,6 +118,7 @@ void JointHandle::set_mimic(const JointHandle& other, double multiplier, double 
     throw Error(Kind::value, "joint '" + name() + "' can follow a joint with as many dofs only");
   joint_->setMimicJoint(other.joint_.get(), multiplier, offset);
   joint_->setActuatorType(Joint::MIMIC);
+  joint_.skeleton->limits_checked = false;
 }
 
 int JointHandle::num_dofs() const
@@ -198,6 +200,7 @@ bool JointHandle::is_position_limit_enforced() const
 void JointHandle::set_position_limit_enforced(bool enforced)
 {
   joint_->setLimitEnforcement(enforced);
+  joint_.skeleton->limits_checked = false;
 }
 
 Eigen::Vector3d JointHandle::axis() const

@@ -7,6 +7,7 @@
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/ShapeNode.hpp>
 
+#include "base/errors.hpp"
 #include "state/stepping.hpp"
 
 namespace pydart2 {
@@ -83,14 +84,25 @@ void check_collision(WorldRecord& world)
       values[i] = skeleton.getDof(i)->getConstraintImpulse();
     impulses.push_back(values);
   }
-  solve_constraints(world, world.world->getTime());
-  for (std::size_t s = 0; s < world.skeletons.size(); ++s) {
-    auto& skeleton = *world.skeletons[s]->skeleton;
-    skeleton.clearConstraintImpulses();
-    skeleton.setImpulseApplied(false);
-    for (std::size_t i = 0; i < skeleton.getNumDofs(); ++i)
-      skeleton.getDof(i)->setConstraintImpulse(impulses[s][i]);
+  const auto take_back = [&] {
+    for (std::size_t s = 0; s < world.skeletons.size(); ++s) {
+      auto& skeleton = *world.skeletons[s]->skeleton;
+      skeleton.clearConstraintImpulses();
+      skeleton.setImpulseApplied(false);
+      for (std::size_t i = 0; i < skeleton.getNumDofs(); ++i)
+        skeleton.getDof(i)->setConstraintImpulse(impulses[s][i]);
+    }
+  };
+  try {
+    solve_constraints(world, world.world->getTime());
+  } catch (const Error& error) {
+    take_back();
+    world.world->getConstraintSolver()->clearLastCollisionResult(); // its forces may not be finite
+    if (error.kind() != Kind::engine)
+      throw;
+    throw Error(Kind::simulation, std::string("the contact forces cannot be found: ") + error.what());
   }
+  take_back();
 }
 
 } // namespace pydart2

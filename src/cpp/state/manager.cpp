@@ -1,6 +1,8 @@
 #include "state/manager.hpp"
 
+#include <list>
 #include <string>
+#include <vector>
 
 #include "base/errors.hpp"
 
@@ -8,12 +10,22 @@ namespace pydart2 {
 
 namespace {
 
-void end(WorldRecord& world)
+/// A world that is about to end; refuses one that another thread is stepping.
+class Ending
 {
-  Busy claim(world); // refuses a world that another thread is stepping
-  claim.destroy();
-  world.clear();
-}
+public:
+  explicit Ending(WorldRecord& world) : world_(world), claim_(world) {}
+
+  void end()
+  {
+    claim_.destroy();
+    world_.clear();
+  }
+
+private:
+  WorldRecord& world_;
+  Busy claim_;
+};
 
 } // namespace
 
@@ -25,7 +37,7 @@ Manager& Manager::instance()
 
 WorldRef Manager::add(dart::simulation::WorldPtr world, std::string source)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard lock(mutex_);
   auto record = std::make_shared<WorldRecord>(next_id_++, std::move(world), std::move(source));
   worlds_.emplace(record->id, record);
   for (auto it = worlds_.begin(); it != worlds_.end();)
@@ -35,7 +47,7 @@ WorldRef Manager::add(dart::simulation::WorldPtr world, std::string source)
 
 WorldRef Manager::find(long id)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard lock(mutex_);
   if (const auto it = worlds_.find(id); it != worlds_.end())
     if (auto record = it->second.lock())
       return record;
@@ -44,17 +56,23 @@ WorldRef Manager::find(long id)
 
 void Manager::destroy(WorldRecord& world)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  end(world);
+  const std::lock_guard lock(mutex_);
+  Ending(world).end();
   worlds_.erase(world.id);
 }
 
 void Manager::restart()
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard lock(mutex_);
+  std::vector<WorldRef> all;
+  std::list<Ending> endings;
   for (auto& [id, world] : worlds_)
-    if (const auto record = world.lock())
-      end(*record);
+    if (const auto record = world.lock()) {
+      all.push_back(record);
+      endings.emplace_back(*record);
+    }
+  for (auto& ending : endings)
+    ending.end();
   worlds_.clear();
   next_id_ = 0;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <map>
-#include <mutex>
 #include <string>
 
+#include "base/fork.hpp"
 #include "state/world_record.hpp"
 
 namespace pydart2 {
@@ -23,11 +23,11 @@ public:
   /// Ends one world: every later use of a handle into it throws.
   void destroy(WorldRecord& world);
 
-  /// Ends all worlds and starts ids at 0 again.
+  /// Ends all worlds and starts ids at 0 again; all or, where another thread is using one, none.
   void restart();
 
 private:
-  std::mutex mutex_;
+  HeldOverFork<std::mutex> mutex_{ForkOrder::manager};
   std::map<long, std::weak_ptr<WorldRecord>> worlds_;
   int next_id_ = 0;
 };

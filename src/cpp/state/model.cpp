@@ -191,8 +191,10 @@ void visit_model(Archive& archive, WorldRecord& record)
   archive.same(std::to_string(record.skeletons.size()) + " skeletons");
   archive.number([&] { return world.getTimeStep(); }, [&](double step) { world.setTimeStep(step); });
   archive.vector([&] { return world.getGravity(); }, [&](const auto& g) { world.setGravity(Eigen::Vector3d(g)); });
-  for (const auto& item : record.skeletons)
+  for (const auto& item : record.skeletons) {
     visit_skeleton(archive, *item->skeleton);
+    item->limits_checked &= !archive.is_in();
+  }
   visit_detector(archive, *world.getConstraintSolver());
   auto& solver = fast_solver(world);
   archive.text(

@@ -15,6 +15,7 @@
 #include "collision/native_detector.hpp"
 #include "contact/fast_solver.hpp"
 #include "state/dof_state.hpp"
+#include "state/limits.hpp"
 
 namespace pydart2 {
 
@@ -174,7 +175,8 @@ void solve_constraints(WorldRecord& record, double time)
     use_detector(solver, solver.getCollisionDetector());
   const bool ode = solver.getCollisionDetector()->getType() == "ode";
   check_range(record, ode, time);
-  const auto lock = ode ? lock_ode() : std::unique_lock<std::recursive_mutex>();
+  check_limits(record);
+  const auto lock = ode ? lock_ode() : std::unique_lock<OdeMutex>();
   native_group(solver); // the order of the shapes
   fast_solver(*record.world).begin_step();
   solver.solve();

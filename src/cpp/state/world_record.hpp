@@ -33,6 +33,8 @@ struct SkeletonRecord
   int index_in_source = -1;   ///< Where it was in the world that it came with.
   std::vector<RootChange> root_changes = {};
 
+  bool limits_checked = false; ///< Since the last change of a limit or of what acts on it (state/limits.hpp).
+
   /// Counts changes of the tree: a handle to a body, joint or dof made before the last one is refused.
   int structure = 0;
 

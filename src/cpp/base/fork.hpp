@@ -1,0 +1,39 @@
+#pragma once
+
+#include <mutex>
+#include <new>
+
+namespace pydart2 {
+
+/// In the order in which threads take them.
+enum class ForkOrder { manager, ode, meshes, innermost };
+
+/// Has these called before the process forks, and after it in the parent and in the child.
+void at_fork(ForkOrder order, void (*before)(void*), void (*in_parent)(void*), void (*in_child)(void*), void* mutex);
+
+/// A mutex that no other thread is inside of when the process forks, for what lives as long as the process: the child
+/// finds it free, and what it protects whole. None may be held by a thread that waits for the interpreter.
+template <class Mutex>
+class HeldOverFork
+{
+public:
+  explicit HeldOverFork(ForkOrder order)
+  {
+    at_fork(
+        order, [](void* self) { of(self).lock(); }, [](void* self) { of(self).unlock(); },
+        [](void* self) { new (&of(self)) Mutex; }, // a recursive one knows its thread by a number that is another now
+        this);
+  }
+  HeldOverFork(const HeldOverFork&) = delete;
+  HeldOverFork& operator=(const HeldOverFork&) = delete;
+
+  void lock() { mutex_.lock(); }
+  void unlock() { mutex_.unlock(); }
+
+private:
+  static Mutex& of(void* self) { return static_cast<HeldOverFork*>(self)->mutex_; }
+
+  Mutex mutex_;
+};
+
+} // namespace pydart2

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "state/world_record.hpp"
+
+namespace pydart2 {
+
+/// Throws Kind::simulation where a limit that the next step acts on has its lower bound above its upper one, which the
+/// engine asserts in calls that may not throw. Positions and velocities of joints that enforce their limits or are SERVO,
+/// forces of SERVO and MIMIC joints. Looks again only after SkeletonRecord::limits_checked was taken back.
+void check_limits(WorldRecord& world);
+
+} // namespace pydart2
