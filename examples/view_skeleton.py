@@ -10,6 +10,7 @@ import sys
 from _headless import arguments, rehearse
 
 import pydart2 as pydart
+from pydart2.cli.models import open_world
 
 if __name__ == "__main__":
     args = arguments(model=True)
@@ -22,10 +23,8 @@ if __name__ == "__main__":
     pydart.init()
     print("Pydart init OK")
 
-    world = pydart.World(1.0 / 1000.0)
+    world = open_world(args.model, ground=not args.headless)
     print("World init OK")
-
-    skel = world.add_skeleton(args.model)
     print("Skeleton add OK")
 
     print("Camera:")

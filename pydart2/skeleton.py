@@ -22,6 +22,7 @@ from pydart2.skel_vector import SkelVector
 from pydart2.softbody import SoftBodyNode
 from pydart2.state import part_of
 from pydart2.targets import TargetControl
+from pydart2.up import is_z_up
 
 if TYPE_CHECKING:
     import os
@@ -91,6 +92,8 @@ class Skeleton(Dynamics, TargetControl, ShortForms):
         Dof name → index.
     """
 
+    _z_up: bool | None = None  # of the file's format; None if it came from none
+
     def __init__(
         self,
         _world: World,
@@ -107,6 +110,7 @@ class Skeleton(Dynamics, TargetControl, ShortForms):
 
             model = read_model(_filename)
             self.filename = model.document.path
+            self._z_up = is_z_up(model)
             _id = model.add_to(_world._handle)
             loaded = True
         if _id is None:

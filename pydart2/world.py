@@ -20,6 +20,7 @@ from pydart2.errors import DestroyedError, NameNotFound, SimulationError
 from pydart2.recording import Recording
 from pydart2.skeleton import Skeleton, _compute_of
 from pydart2.state import Snapshot, model_hash
+from pydart2.up import Axis, Upright, check, is_z_up
 
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
@@ -80,7 +81,7 @@ def _rebuild(
     return world
 
 
-class World(WorldBuilding):
+class World(WorldBuilding, Upright):
     """A simulated world.
 
     >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")
@@ -94,11 +95,14 @@ class World(WorldBuilding):
     skel_path
         A file with a world (SKEL, SDF, MJCF, URDF world), from the current folder, else among the package's models; or
         a URI, or the XML itself (a str that begins with ``<``, or bytes). A file with a skeleton alone gives a world
-        with that. Without it the world is empty. The gravity is the file's, or (0, -9.81, 0).
+        with that. Without it the world is empty. The gravity is the file's, or 9.81 m/s² along -y.
     xmlstr
         Whether `skel_path` is the XML itself, however it begins.
     packages, missing_meshes, safe, reader
         As in `add_skeleton`.
+    up
+        "x", "y" or "z": which way is up, and gravity along the other; without it as the original's worlds, y-up. A file
+        with a world has its own.
 
     Attributes
     ----------
@@ -118,6 +122,8 @@ class World(WorldBuilding):
     ------
     LoadError
         If the file is missing or cannot be read: says file, line and reason.
+    ValueError
+        If the file's gravity is not against `up`.
     """
 
     DART_COLLISION_DETECTOR: ClassVar[int] = 0
@@ -139,7 +145,9 @@ class World(WorldBuilding):
         missing_meshes: Missing = "error",
         safe: bool | None = None,
         reader: Reader = "mujoco",
+        up: Axis | None = None,
     ) -> None:
+        check(up)
         model = skel_path
         if model is not None:
             from pydart2.loading import Options, read_model  # a third of the time to import pydart2
@@ -152,19 +160,19 @@ class World(WorldBuilding):
                 _log.warning("%s: its time step is %g s, the world's %g s", os.fspath(model), model.time_step, step)
         else:
             self._handle = WorldHandle(step)
-            self._handle.set_gravity([0.0, -9.81, 0.0])
+        self._stand(up, own_gravity=model is not None and model.has_world)
         if model is not None and not model.has_world:
             model.add_to(self._handle)
         self._begin()
         for i in range(self._handle.num_skeletons()):
-            self.add_skeleton_from_id(i)
+            self.add_skeleton_from_id(i)._z_up = model is not None and is_z_up(model)
         self.keyframes: dict[str, NDArray[np.float64]] = model.keyframes if model is not None else {}
         self.reset()
         self.enable_recording()
 
     def _begin(self) -> None:
         self.id: int = self._handle.id()
-        self._step = self._handle.step  # bound once: finding it anew takes 1 % of a short step
+        self._step: Callable[[int], None] = self._handle.step  # bound once: finding it anew is 1 % of a short step
         self.control_skel: Skeleton | None = None
         self.recording: Recording | None = None
         self.skeletons: list[Skeleton] = []
@@ -247,6 +255,7 @@ class World(WorldBuilding):
 
     def _append(self, skel: Skeleton) -> None:
         self.skeletons.append(skel)
+        self._step = self._first_step
         if skel.controller is not None:
             self._find_controllers()
 
@@ -341,6 +350,12 @@ class World(WorldBuilding):
             self.collision_result.update()
             raise
         self.collision_result._looked = None  # as update(), without the call
+
+    def _first_step(self, n: int) -> None:
+        """The first step since a skeleton came; the others are the engine's alone."""
+        self._say_which_way_is_up()
+        self._step = self._handle.step
+        self._step(n)
 
     def _find_controllers(self) -> None:
         """Note who acts before each step, so that step() does not have to look."""
@@ -442,8 +457,9 @@ class World(WorldBuilding):
         return self._handle.gravity()
 
     def set_gravity(self, _g: ArrayLike) -> None:
-        """Set gravity, shape (3,), m/s²."""
+        """Set gravity, shape (3,), m/s². `up` follows it, unless the world was made with one."""
         self._handle.set_gravity(_g)
+        self._has_gravity = True
 
     @property
     def g(self) -> NDArray[np.float64]:
@@ -452,7 +468,7 @@ class World(WorldBuilding):
 
     @g.setter
     def g(self, g: ArrayLike) -> None:
-        self._handle.set_gravity(g)
+        self.set_gravity(g)
 
     @property
     def constraints(self) -> list[Constraint]:

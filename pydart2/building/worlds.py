@@ -55,6 +55,9 @@ class WorldBuilding:
     if TYPE_CHECKING:  # what World has
         skeletons: list[Skeleton]
 
+        @property
+        def up(self) -> NDArray[np.float64]: ...
+
         def add_skeleton_from_id(self, _skel_id: int) -> Skeleton: ...
 
     def add_empty_skeleton(self, name: str = "skeleton") -> Skeleton:
@@ -77,13 +80,11 @@ class WorldBuilding:
         Parameters
         ----------
         height
-            Of the floor against gravity, from the origin, m.
+            Of the floor along the world's `up`, from the origin, m.
         size
             Its two edges, shape (2,), m.
-
-        Up is opposite to gravity, as it is now; without gravity it is y.
         """
-        up = _up(self)
+        up = self.up
         edges = np.asarray(size, dtype=float)
         if edges.shape != (2,):
             raise ValueError(f"a ground has two edges, got {size!r}")
@@ -230,9 +231,3 @@ class WorldBuilding:
             if key in options:
                 shape[key] = options[key]
         attach(skeleton.bodynode(0), solid, shape)
-
-
-def _up(world: WorldBuilding) -> NDArray[np.float64]:
-    gravity = world._handle.gravity()
-    strength = float(np.linalg.norm(gravity))
-    return -gravity / strength if strength > 0.0 else np.array([0.0, 1.0, 0.0])

@@ -7,12 +7,11 @@ import os
 from typing import Any
 
 import pydart2
+from pydart2.gui.first_look import height_of_floor
 from pydart2.loading import read_model
+from pydart2.up import Axis, is_z_up
 
 _TIME_STEP = 0.001  # s, of a file that has none
-
-#: Root elements of formats whose z axis is up.
-_Z_UP = ("robot", "sdf", "mujoco")
 
 
 def add_file(parser: argparse.ArgumentParser) -> None:
@@ -20,13 +19,17 @@ def add_file(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help="URDF, SDF, SKEL, MJCF or VSK; from here, else of the package")
 
 
-def open_world(path: str | os.PathLike[str]) -> pydart2.World:
-    """A world with what a file holds, with the file's gravity if it has one, else along the format's down."""
+def open_world(path: str | os.PathLike[str], ground: bool = False) -> pydart2.World:
+    """A world with what a file holds, with the file's gravity if it has one, else along the format's down.
+
+    With `ground`, what has no floor gets one, right under it, where there is gravity along it.
+    """
     model: Any = read_model(path)
-    if model.has_world:
-        return pydart2.World(_TIME_STEP, model)
-    world = pydart2.World(_TIME_STEP)
-    if model.document.root.tag in _Z_UP:
-        world.set_gravity([0.0, 0.0, -9.81])
-    world.add_skeleton(model)
+    up: Axis | None = None if model.has_world else "z" if is_z_up(model) else "y"
+    world = pydart2.World(_TIME_STEP, model, up=up)
+    if ground and -world.gravity() @ world.up > 0.0:
+        height = height_of_floor(world)
+        if height is not None:
+            world.add_ground(height)
+            world.reset()  # the recording, too, begins with the ground
     return world

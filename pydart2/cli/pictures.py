@@ -14,6 +14,7 @@ def add(commands: Any) -> None:
     """Add the commands."""
     view = commands.add_parser("view", help="show a file in a window")
     add_file(view)
+    _add_ground(view)
     view.set_defaults(run=run_view)
 
     render = commands.add_parser("render", help="make a picture of a file")
@@ -23,10 +24,15 @@ def add(commands: Any) -> None:
 
     record = commands.add_parser("record", help="simulate a file and make a movie of it")
     add_file(record)
+    _add_ground(record)
     _add_picture(record, "out.mp4", " (.mp4, .webp, .gif)")
     record.add_argument("--seconds", type=float, default=5.0, metavar="S", help="how long to simulate (5)")
     record.add_argument("--fps", type=float, default=30.0, help="pictures a second (30)")
     record.set_defaults(run=run_record)
+
+
+def _add_ground(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--no-ground", action="store_true", help="let it fall: add no ground where the file has none")
 
 
 def _add_picture(parser: argparse.ArgumentParser, name: str, kinds: str = "") -> None:
@@ -46,7 +52,7 @@ def run_view(args: argparse.Namespace) -> None:
     """Open a window until it is closed."""
     from pydart2.gui import viewer
 
-    viewer.launch(open_world(args.file), Path(args.file).name)
+    viewer.launch(open_world(args.file, not args.no_ground), Path(args.file).name)
 
 
 def run_render(args: argparse.Namespace) -> None:
@@ -65,5 +71,6 @@ def run_record(args: argparse.Namespace) -> None:
     from pydart2 import gui
 
     width, height = args.size
-    gui.record(open_world(args.file), args.output, args.seconds, args.fps, width, height, args.camera)
+    world = open_world(args.file, not args.no_ground)
+    gui.record(world, args.output, args.seconds, args.fps, width, height, args.camera)
     print(args.output)

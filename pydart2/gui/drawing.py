@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 from OpenGL import GL
 
 from pydart2 import screen
-from pydart2.gui import scene as scenes
 from pydart2.gui.context import ContextError, before_free, current_context
 from pydart2.gui.renderer import SceneRenderer
 from pydart2.gui.scene import Scene
 from pydart2.gui.shapes import add_shapenode
+from pydart2.up import up_of
 
 if TYPE_CHECKING:
     from pydart2.contact import Contact
@@ -71,7 +71,7 @@ def draw_world(world: World, markers: bool, contacts: bool, contact_size: float,
 
 def draw_markers(world: World) -> None:
     """Draw the markers of a world."""
-    scene = Scene(scenes.up_of(world))
+    scene = Scene(up_of(world))
     for skel in world.skeletons:
         scene.add_markers(skel)
     draw(scene)
@@ -79,14 +79,14 @@ def draw_markers(world: World) -> None:
 
 def draw_contacts(world: World, size: float, force_scale: float) -> None:
     """Draw the contacts of a world."""
-    scene = Scene(scenes.up_of(world))
+    scene = Scene(up_of(world))
     scene.add_contacts(world.collision_result.rows, size, force_scale)
     draw(scene)
 
 
 def draw_contact(contact: Contact, size: float, force_scale: float) -> None:
     """Draw one contact."""
-    scene = Scene(scenes.up_of(contact.world))
+    scene = Scene(up_of(contact.world))
     scene.add_contacts(contact.state[None], size, force_scale)
     draw(scene)
 
@@ -100,21 +100,21 @@ def draw_contact_row(row: NDArray[np.float64], size: float, force_scale: float) 
 
 def draw_skeleton(skel: Skeleton, rgba: ArrayLike | None = None) -> None:
     """Draw a skeleton, all in one colour of 3 or 4 numbers, 0 to 1, if it is given."""
-    scene = Scene(scenes.up_of(skel.world))
+    scene = Scene(up_of(skel.world))
     scene.add_skeleton(skel, rgba)
     draw(scene)
 
 
 def draw_marker(marker: Marker) -> None:
     """Draw a marker."""
-    scene = Scene(scenes.up_of(marker.skeleton.world))
+    scene = Scene(up_of(marker.skeleton.world))
     scene.add_marker(marker.p)
     draw(scene)
 
 
 def draw_shape(shape: Shape) -> None:
     """Draw a shape in grey in the axes of OpenGL's model-view matrix."""
-    scene = Scene(scenes.up_of(shape.skeleton.world))
+    scene = Scene(up_of(shape.skeleton.world))
     add_shapenode(scene, shape.shapenode, (0.8, 0.8, 0.8, 1.0), pose=np.eye(4))
     draw(scene)
 

@@ -52,14 +52,26 @@ def look(world: Any, aspect: float = 1.0, view: str = "auto") -> Camera:
 def floor_of(world: Any) -> Item | None:
     """A floor to be drawn under all that a world shows now; None where a body of it is a floor, or nothing is there."""
     scene = _scene_of(world)
+    lowest = _height_of_floor(scene)
+    if lowest is None:
+        return None
+    low, high = _extent(scene)
+    ground = Scene(scene.up)
+    ground.add_ground(lowest, max(_LEAST_FLOOR, 4.0 * float(np.linalg.norm(high - low))), centre=(low + high) / 2.0)
+    return ground.items[0]
+
+
+def height_of_floor(world: Any) -> float | None:
+    """How high that floor is, m; None where there is none to be drawn."""
+    return _height_of_floor(_scene_of(world))
+
+
+def _height_of_floor(scene: Scene) -> float | None:
     bodies = [item for item in scene.items if item.ids != NOBODY]
     if not bodies or not all(item.casts for item in bodies):
         return None
     low, high = _extent(scene)
-    ground = Scene(scene.up)
-    lowest = float(np.where(scene.up > 0.0, low, high) @ scene.up)
-    ground.add_ground(lowest, max(_LEAST_FLOOR, 4.0 * float(np.linalg.norm(high - low))), centre=(low + high) / 2.0)
-    return ground.items[0]
+    return float(np.where(scene.up > 0.0, low, high) @ scene.up)
 
 
 def _scene_of(world: Any) -> Scene:

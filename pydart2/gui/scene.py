@@ -14,6 +14,7 @@ from pydart2.gui.geometry import Mesh
 from pydart2.gui.placing import between as between
 from pydart2.gui.placing import grid_of
 from pydart2.gui.shapes import add_shapenode
+from pydart2.up import up_of
 
 if TYPE_CHECKING:
     from pydart2.joint import Joint
@@ -239,13 +240,6 @@ def from_world(world: World, show: Show | None = None) -> Scene:
     scene = Scene()
     scene.add_world(world, show)
     return scene
-
-
-def up_of(world: World) -> Array:
-    """Against gravity, unit vector of shape (3,); +y if there is none."""
-    gravity = world.gravity()
-    length = float(np.linalg.norm(gravity))
-    return -gravity / length if length > 0.0 else np.array([0.0, 1.0, 0.0])
 
 
 def size_of_signs(skel: Skeleton) -> float:

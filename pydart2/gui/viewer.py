@@ -42,7 +42,7 @@ def launch_pyqt5(sim: Any, title: str | None = None, default_camera: int | None 
     title
         Of the window.
     default_camera
-        0: Y up, 1: Z up; None chooses by the world's gravity, sees all that is there, and draws a floor where the
+        0: Y up, 1: Z up; None takes the world's up, sees all that is there, and draws a floor where the
         world has none.
 
     Returns

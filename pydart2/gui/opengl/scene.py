@@ -6,15 +6,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import numpy as np
 from OpenGL import GL
 
 from pydart2.gui import drawing
 from pydart2.gui.camera import Camera, default_trackballs
 from pydart2.gui.opengl.renderer import Renderer
 from pydart2.gui.renderer import Style, blend
-from pydart2.gui.scene import Show, up_of
+from pydart2.gui.scene import Show
 from pydart2.gui.trackball import Trackball
+from pydart2.up import up_of
 
 
 class OpenGLScene:
@@ -87,8 +87,7 @@ class OpenGLScene:
         GL.glLoadMatrixd(projection.T.copy())
         GL.glMatrixMode(GL.GL_MODELVIEW)
         GL.glLoadMatrixd(view.T.copy())
-        up = up_of(sim) if hasattr(sim, "gravity") else np.array([0.0, 1.0, 0.0])
-        renderer.begin_frame(view, projection, up)
+        renderer.begin_frame(view, projection, up_of(sim))
         renderer.clear()
 
     def enable2D(self) -> None:  # noqa: N802 (the original's)

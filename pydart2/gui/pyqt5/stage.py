@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pydart2.gui import drawing
 from pydart2.gui.overlays import Overlays
 from pydart2.gui.runtime import Runtime
+from pydart2.up import unit, up_of
 from pydart2.world import World
 
 
@@ -24,13 +25,12 @@ class Stage:
         self.runtime = runtime
         self.overlays = overlays
 
-    def gravity(self) -> NDArray[np.float64]:
-        """(3,) m/s², in the world frame: tells the scene where up is."""
+    def _up_in_pictures(self) -> NDArray[np.float64]:
         sim = self.runtime.sim
         with self.runtime.guarded():
             if isinstance(sim, World):
-                return sim.gravity()
-        return np.array([0.0, -9.81, 0.0])
+                return up_of(sim)
+        return unit("y")
 
     def render(self) -> None:
         """Draw the simulation."""

@@ -24,6 +24,7 @@ from pydart2.gui.pyqt5.scripted import Scripted
 from pydart2.gui.pyqt5.side_panel import SidePanel
 from pydart2.gui.pyqt5.status import StatusView
 from pydart2.gui.runtime import Runtime
+from pydart2.up import up_of
 
 SECONDS = "PYDART2_VIEWER_SECONDS"
 _PICTURE_SIZE = (1280, 720)
@@ -152,7 +153,7 @@ class PyQt5Window(Scripted):
     def _has_z_up(self) -> bool:
         if self.world is None:
             return False
-        x, y, z = abs(self.world.gravity())
+        x, y, z = abs(up_of(self.world))
         return bool(z > max(x, y))
 
     def initTimers(self) -> None:  # noqa: N802
