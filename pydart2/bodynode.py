@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import contact_forces
+from pydart2.assignment import Assignable
 from pydart2.building.bodies import BodyBuilding
 from pydart2.frames import Frame
 from pydart2.shapenode import ShapeNode
@@ -26,7 +27,7 @@ _log = logging.getLogger("pydart2")
 _ORIGIN = (0.0, 0.0, 0.0)
 
 
-class BodyNode(Frame, BodyBuilding):
+class BodyNode(Frame, BodyBuilding, Assignable):
     """A rigid or soft body of a skeleton.
 
     Jacobians have the angular rows before the linear ones. ``full=True`` gives a column to each dof of the skeleton,

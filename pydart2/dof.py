@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pydart2.assignment import Assignable
 from pydart2.state import part_of
 
 if TYPE_CHECKING:
@@ -11,7 +12,7 @@ if TYPE_CHECKING:
     from pydart2.skeleton import Skeleton
 
 
-class Dof:
+class Dof(Assignable):
     """One degree of freedom of a skeleton: rad, rad/s, N m for a rotation; m, m/s, N for a translation.
 
     Attributes

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.assignment import Assignable
 from pydart2.state import part_of
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 _ACTUATORS = ("FORCE", "PASSIVE", "SERVO", "ACCELERATION", "VELOCITY", "LOCKED", "MIMIC")
 
 
-class Joint:
+class Joint(Assignable):
     """A joint of any type, between a body and its parent.
 
     Attributes

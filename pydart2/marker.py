@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import screen
+from pydart2.assignment import Assignable
 from pydart2.state import part_of
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from pydart2.skeleton import Skeleton
 
 
-class Marker:
+class Marker(Assignable):
     """A point that is fixed to a body, as of a motion capture suit.
 
     Attributes

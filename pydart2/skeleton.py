@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import contact_forces, screen, spd
+from pydart2.assignment import Assignable
 from pydart2.bodynode import BodyNode
 from pydart2.building.short_forms import ShortForms
 from pydart2.dof import Dof
@@ -65,7 +66,7 @@ def _compute_of(controller: Controller) -> Callable[[], ArrayLike]:
     return compute
 
 
-class Skeleton(Dynamics, TargetControl, ShortForms):
+class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
     """A robot or another articulated body, in a world.
 
     ``q``, ``dq``, ``ddq`` are copies: change one and assign it back, or write by name with ``set_positions``::

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import constraints, contact_forces, manager, screen
 from pydart2._native import WorldHandle
+from pydart2.assignment import Assignable
 from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
@@ -81,7 +82,7 @@ def _rebuild(
     return world
 
 
-class World(WorldBuilding, Upright):
+class World(WorldBuilding, Upright, Assignable):
     """A simulated world.
 
     >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")
