@@ -1,6 +1,9 @@
 #include "collision/ode_detector.hpp"
 
 #include <dart/collision/ode/OdeCollisionObject.hpp>
+#include <new>
+
+#include "engine/ode_space.hpp"
 
 namespace pydart2 {
 
@@ -8,13 +11,19 @@ using namespace dart::collision;
 
 namespace {
 
-/// The member is protected: a derived class may name it.
-struct Object : OdeCollisionObject
+/// The constructor is protected.
+struct Object final : OdeCollisionObject
 {
-  static dGeomID geometry(const OdeCollisionObject& object) { return (object.*(&Object::getOdeGeomId))(); }
+  Object(OdeCollisionDetector* detector, const dart::dynamics::ShapeFrame* frame) : OdeCollisionObject(detector, frame) {}
 };
+static_assert(sizeof(Object) == sizeof(OdeCollisionObject));
 
 } // namespace
+
+OdeDetector::OdeDetector()
+{
+  make_ode_throw();
+}
 
 std::shared_ptr<OdeDetector> OdeDetector::create()
 {
@@ -26,10 +35,34 @@ std::shared_ptr<CollisionDetector> OdeDetector::cloneWithoutCollisionObjects() c
   return create();
 }
 
+bool OdeDetector::collide(CollisionGroup* group, const CollisionOption& option, CollisionResult* result)
+{
+  try {
+    return OdeCollisionDetector::collide(group, option, result);
+  } catch (...) {
+    unlock_ode_space(*group);
+    throw;
+  }
+}
+
+bool OdeDetector::collide(
+    CollisionGroup* group1, CollisionGroup* group2, const CollisionOption& option, CollisionResult* result)
+{
+  try {
+    return OdeCollisionDetector::collide(group1, group2, option, result);
+  } catch (...) {
+    unlock_ode_space(*group1);
+    unlock_ode_space(*group2);
+    throw;
+  }
+}
+
 void OdeDetector::refreshCollisionObject(CollisionObject* object)
 {
-  OdeCollisionDetector::refreshCollisionObject(object);
-  dGeomSetData(Object::geometry(static_cast<const OdeCollisionObject&>(*object)), object);
+  const auto* frame = object->getShapeFrame();
+  const Object tried(this, frame); // if that throws, the old one is whole
+  object->~CollisionObject();
+  new (object) Object(this, frame);
 }
 
 } // namespace pydart2

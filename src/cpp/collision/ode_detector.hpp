@@ -4,8 +4,9 @@
 
 namespace pydart2 {
 
-/// The engine's detector with ODE, but that a shape that has changed keeps its body: the engine's own refresh leaves
-/// ODE with the address of an object that is no more, and the next contact reads it.
+/// The engine's detector with ODE, but that a shape that has changed is made anew where it was: the engine's own refresh
+/// leaves ODE, and a plane or mesh itself, with the address of an object that is no more. And what goes wrong inside ODE
+/// is an exception, after which the detector works.
 class OdeDetector : public dart::collision::OdeCollisionDetector
 {
 public:
@@ -13,11 +14,21 @@ public:
 
   std::shared_ptr<dart::collision::CollisionDetector> cloneWithoutCollisionObjects() const override;
 
+  bool collide(
+      dart::collision::CollisionGroup* group,
+      const dart::collision::CollisionOption& option,
+      dart::collision::CollisionResult* result) override;
+  bool collide(
+      dart::collision::CollisionGroup* group1,
+      dart::collision::CollisionGroup* group2,
+      const dart::collision::CollisionOption& option,
+      dart::collision::CollisionResult* result) override;
+
 protected:
   void refreshCollisionObject(dart::collision::CollisionObject* object) override;
 
 private:
-  OdeDetector() = default;
+  OdeDetector();
 };
 
 } // namespace pydart2

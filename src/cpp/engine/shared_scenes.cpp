@@ -5,6 +5,8 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cmath>
+#include <dart/common/Console.hpp>
 #include <dart/common/ResourceRetriever.hpp>
 #include <dart/common/Uri.hpp>
 #include <dart/dynamics/MeshShape.hpp>
@@ -70,17 +72,36 @@ private:
   ResourceRetrieverPtr source_;
 };
 
-void drop_lines(const aiScene& scene)
+bool is_number(const aiVector3D& corner)
 {
+  return std::all_of(&corner.x, &corner.x + 3, [](double value) { return std::abs(value) <= 1e30; });
+}
+
+/// Leaves triangles whose corners are numbers: detectors end the process at points and lines, or reckon with NaN. False
+/// if there are none.
+bool clean(const aiScene& scene, const std::string& uri)
+{
+  unsigned kept = 0, dropped = 0;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     aiMesh& mesh = *scene.mMeshes[i];
     const auto is_triangle = [&](const aiFace& face) {
-      return face.mNumIndices == 3
-             && std::all_of(face.mIndices, face.mIndices + 3, [&](unsigned v) { return v < mesh.mNumVertices; });
+      return face.mNumIndices == 3 && std::all_of(face.mIndices, face.mIndices + 3, [&](unsigned v) {
+               return v < mesh.mNumVertices && is_number(mesh.mVertices[v]);
+             });
     };
     const aiFace* end = std::stable_partition(mesh.mFaces, mesh.mFaces + mesh.mNumFaces, is_triangle);
-    mesh.mNumFaces = static_cast<unsigned>(end - mesh.mFaces);
+    const auto triangles = static_cast<unsigned>(end - mesh.mFaces);
+    dropped += std::exchange(mesh.mNumFaces, triangles) - triangles;
+    kept += triangles;
+    // Not in a triangle any more, but in bounding boxes.
+    const aiVector3D instead = triangles == 0 ? aiVector3D() : mesh.mVertices[mesh.mFaces[0].mIndices[0]];
+    std::replace_if(
+        mesh.mVertices, mesh.mVertices + mesh.mNumVertices, [](const auto& corner) { return !is_number(corner); }, instead);
   }
+  if (dropped > 0)
+    dtwarn << "[MeshShape] '" << uri << "': " << dropped << " of " << kept + dropped
+           << " faces are left out, as points, lines, or with corners that are no numbers\n";
+  return kept > 0;
 }
 
 /// Imported scenes and how many own each.
@@ -172,7 +193,11 @@ const aiScene* load(const std::string& uri, const ResourceRetrieverPtr& retrieve
   const auto* scene = engines_load(uri, noting); // without the lock: another thread may import the same meanwhile
   if (scene == nullptr)
     return nullptr;
-  drop_lines(*scene);
+  if (!clean(*scene, uri)) {
+    aiReleaseImport(scene);
+    dtwarn << "[MeshShape] '" << uri << "' has no triangle\n";
+    return nullptr;
+  }
   scenes().add(uri, scene, noting->files);
   return scene;
 }

@@ -3,7 +3,9 @@
 #include <dart/common/Console.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
+#include <dart/dynamics/PlaneShape.hpp>
 #include <dart/dynamics/PointMass.hpp>
+#include <dart/dynamics/ShapeNode.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
 #include <cstring>
 #include <sstream>
@@ -21,6 +23,7 @@ namespace pydart2 {
 
 namespace {
 
+using dart::dynamics::BodyNode;
 using dart::dynamics::PointMass;
 using dart::dynamics::Skeleton;
 
@@ -151,19 +154,35 @@ StateWatch& watch(SkeletonRecord& record)
   return *record.watch;
 }
 
+/// At most so far from its body's origin a shape is, and with ODE any point of it.
+double reach(const dart::dynamics::ShapeNode& node, bool ode)
+{
+  double far = node.getRelativeTransform().translation().cwiseAbs().sum();
+  if (ode && !node.getShape()->is<dart::dynamics::PlaneShape>())
+    far += node.getShape()->getBoundingBox().computeFullExtents().sum();
+  return far;
+}
+
 /// Collision detection needs differences of coordinates: contacts of bodies that are too far out have normals that are
 /// not numbers. ODE ends the process where a coordinate in cells of its hash space, 1/8 m and larger, is no 32-bit integer.
 void check_range(const WorldRecord& record, bool ode, double time)
 {
   const double limit = ode ? 1e8 : 1e12;
+  const auto check = [&](double far, const std::string& what, const BodyNode& body) {
+    if (!(far <= limit))
+      throw Error(
+          Kind::simulation,
+          "the simulation left the range of the collision detector at t = " + text(time) + " s: " + what + " '"
+              + body.getName() + "' of skeleton '" + body.getSkeleton()->getName() + "' is " + text(far)
+              + " m from the origin along an axis, the range is " + text(limit) + " m");
+  };
   for (const auto& item : record.skeletons)
-    for (const auto* body : item->skeleton->getBodyNodes())
-      if (const double far = body->getWorldTransform().translation().cwiseAbs().maxCoeff(); far > limit)
-        throw Error(
-            Kind::simulation,
-            "the simulation left the range of the collision detector at t = " + text(time) + " s: body '"
-                + body->getName() + "' of skeleton '" + item->skeleton->getName() + "' is " + text(far)
-                + " m from the origin along an axis, the range is " + text(limit) + " m");
+    for (const auto* body : item->skeleton->getBodyNodes()) {
+      const double far = body->getWorldTransform().translation().cwiseAbs().maxCoeff();
+      check(far, "body", *body);
+      for (std::size_t i = 0; i < body->getNumShapeNodes(); ++i)
+        check(far + reach(*body->getShapeNode(i), ode), "a shape of body", *body);
+    }
 }
 
 } // namespace
