@@ -99,7 +99,7 @@ class World(WorldBuilding, Upright, Assignable):
         with that. Without it the world is empty. The gravity is the file's, or 9.81 m/s² along -y.
     xmlstr
         Whether `skel_path` is the XML itself, however it begins.
-    packages, missing_meshes, safe, reader
+    packages, missing_meshes, safe, reader, massless, engine_defaults, strict
         As in `add_skeleton`.
     up
         "x", "y" or "z": which way is up, and gravity along the other; without it as the original's worlds, y-up. A file
@@ -147,13 +147,17 @@ class World(WorldBuilding, Upright, Assignable):
         safe: bool | None = None,
         reader: Reader = "mujoco",
         up: Axis | None = None,
+        massless: bool = False,
+        engine_defaults: bool = False,
+        strict: bool = False,
     ) -> None:
         check(up)
         model = skel_path
         if model is not None:
             from pydart2.loading import Options, read_model  # a third of the time to import pydart2
 
-            model = read_model(model, Options(packages, missing_meshes, safe, xmlstr, reader))
+            options = Options(packages, missing_meshes, safe, xmlstr, reader, massless, engine_defaults, strict)
+            model = read_model(model, options)
         if model is not None and model.has_world:
             self._handle = model.load_world()
             self._handle.set_time_step(step)
@@ -197,6 +201,9 @@ class World(WorldBuilding, Upright, Assignable):
         missing_meshes: Missing = "error",
         safe: bool | None = None,
         reader: Reader = "mujoco",
+        massless: bool = False,
+        engine_defaults: bool = False,
+        strict: bool = False,
     ) -> Skeleton:
         """Load a URDF, SDF, SKEL, MJCF or VSK file and add its skeleton.
 
@@ -219,6 +226,14 @@ class World(WorldBuilding, Upright, Assignable):
         reader
             Who reads MJCF: ``"mujoco"``, its own compiler (``pip install pydart2[mjcf]``), whose numbers the skeletons
             then have, or ``"engine"``, whose numbers differ.
+        massless
+            A URDF link without ``<inertial>`` weighs nothing, but where a joint would then move too little mass, 1 kg
+            as in the engine, with a warning. True: nothing there either, for kinematics and comparisons; a step says
+            what it lacks.
+        engine_defaults
+            Whether each of them weighs 1 kg, and has 1 kg m² about each axis, as the engine alone loads it.
+        strict
+            Whether what is a warning about the file is a LoadError.
 
         Raises
         ------
@@ -228,7 +243,8 @@ class World(WorldBuilding, Upright, Assignable):
         self._handle.time()  # a world that is gone says so before the file is read
         from pydart2.loading import Options, read_model
 
-        model = read_model(filename, Options(packages, missing_meshes, safe, reader=reader))
+        options = Options(packages, missing_meshes, safe, False, reader, massless, engine_defaults, strict)
+        model = read_model(filename, options)
         before = self._handle.num_skeletons()
         try:
             return (CLASS or self.CLASS_SKELETON)(self, _filename=model)

@@ -64,7 +64,7 @@ class Solid:
 
 @dataclass(frozen=True)
 class Link:
-    """Without an inertial DART takes 1 kg and 1 kg m^2 about each axis."""
+    """Without an inertial it weighs nothing."""
 
     name: str
     joint: Joint | None
@@ -516,7 +516,7 @@ GRIPPER = (
             velocity=0.2,
             damping=10.0,
         ),
-        None,
+        point_mass(1.0, 1.0),  # as the engine has it, where none is published
     ),
 )
 RIGHT_UPPER_ARM = Inertial(

@@ -20,6 +20,7 @@ from pydart2._native import ModelSource, WorldHandle
 from pydart2.errors import LoadError
 from pydart2.loading import files
 from pydart2.loading.checks import check, relevant, rules_of
+from pydart2.loading.mass import settle_masses
 from pydart2.loading.readable import Readable
 from pydart2.loading.rules import URDF, URDF_WORLD, Rules
 from pydart2.loading.trial import try_model
@@ -54,6 +55,13 @@ class Options:
     reader
         Who reads MJCF: ``"mujoco"``, its own compiler (``pip install pydart2[mjcf]``), or ``"engine"``, whose numbers
         differ: it takes degrees for radians, loses masses and joints.
+    massless
+        Whether URDF links without ``<inertial>`` weigh nothing even where the motion then has no answer: for kinematics
+        and comparisons.
+    engine_defaults
+        Whether they weigh 1 kg, as the engine's own loader has it.
+    strict
+        Whether what else is a warning is a LoadError.
     """
 
     packages: Mapping[str, str | os.PathLike[str]] | None = None
@@ -61,6 +69,9 @@ class Options:
     safe: bool | None = None
     text: bool = False
     reader: Reader = "mujoco"
+    massless: bool = False
+    engine_defaults: bool = False
+    strict: bool = False
 
 
 @dataclass
@@ -72,6 +83,7 @@ class Model(Readable):
     source: ModelSource
     safe: bool
     files: list[str] = field(default_factory=list)
+    light: bool = False  # whether links without <inertial> weigh less than in the engine
 
     @property
     def has_world(self) -> bool:
@@ -107,7 +119,8 @@ class Model(Readable):
     def _try(self, world: bool) -> None:
         reason = try_model(self.source, world, self.files) if self.safe else None
         if reason is not None:
-            raise self._error(reason)
+            hint = "; it may be for want of mass: engine_defaults=True gives each link without <inertial> 1 kg"
+            raise self._error(reason + hint * (self.light and "Nan" in reason))
 
     @contextlib.contextmanager
     def _located(self) -> Iterator[None]:
@@ -143,6 +156,8 @@ def read_model(what: Source | Readable, options: Options | None = None) -> Reada
     if isinstance(what, Readable):
         return what
     options = options or Options()
+    if options.massless and options.engine_defaults:
+        raise ValueError("massless=True and engine_defaults=True exclude each other")
     if options.reader not in ("mujoco", "engine"):
         raise ValueError(f"reader must be 'mujoco' or 'engine', got {options.reader!r}")
     if options.missing_meshes not in ("error", "warn"):
@@ -202,6 +217,7 @@ class _Builder:
     def build(self) -> Model:
         self._add(self.path, self.main, ())
         self._settle_meshes()
+        light = self._settle_masses()
         for path, document in self.documents.items():
             self.source.add_text(path, _for_the_engine(document).decode())
         if self.rules.kind == "mjcf" and all(d.root.find("default") is None for d in self.documents.values()):
@@ -210,7 +226,7 @@ class _Builder:
             self.source.add_text(self.path, re.sub(rb"</mujoco\s*>\s*$", b"<default/></mujoco>", text).decode())
         own = self.main.path is not None and self.path.startswith(str(data_folder().resolve()) + os.sep)
         safe = self.options.safe if self.options.safe is not None else not own
-        return Model(self.main, self.rules, self.source, safe, self.files)
+        return Model(self.main, self.rules, self.source, safe, self.files, light)
 
     def _add(self, path: str, document: Document, above: tuple[str, ...]) -> None:
         """Check a document and those that it includes."""
@@ -259,7 +275,26 @@ class _Builder:
         reason = f"the {kind} mesh {mesh.uri!r} of {body} is missing: {self.places.explain(mesh.uri)}"
         if mesh.collides and self.options.missing_meshes == "error":
             raise document.error(mesh.element, f"{reason}; with missing_meshes='warn' it is left out")
-        _log.warning("%s, line %d: %s; left out", document.path or "XML text", mesh.element.line, reason)
+        self._warn(document, mesh.element, f"{reason}; left out")
+
+    def _settle_masses(self) -> bool:
+        """Let URDF links without <inertial> weigh what they should; whether it is less than in the engine."""
+        before = {name: document.changed() for name, document in self.documents.items()}
+        for document in self.documents.values():
+            if document.root.tag != "robot" or self.options.engine_defaults:
+                continue
+            kept = settle_masses(document, self.options.massless)
+            if kept:
+                names = ", ".join(repr(link.get("@name")) for link in kept)
+                reason = f"no <inertial> in {names}, and too little mass below for it to move"
+                self._warn(document, kept[0], f"{reason}: 1 kg, as the engine has it (massless=True: 0 kg)")
+        return any(document.changed() != before[name] for name, document in self.documents.items())
+
+    def _warn(self, document: Document, element: Element, reason: str) -> None:
+        """A warning, or an error if they are asked for."""
+        if self.options.strict:
+            raise document.error(element, reason)
+        _log.warning("%s, line %d: %s", document.path or "XML text", element.line, reason)
 
     def _redirect(self, uri: str, path: str) -> None:
         """Let the engine find `path` under the URI that it will ask for, and the files beside it."""
@@ -273,5 +308,5 @@ class _Builder:
 
 def _for_the_engine(document: Document) -> bytes:
     """The text without what its parsers stumble over: line ends and tabs between numbers, spaces around them."""
-    data = re.sub(rb"[\t\r\n]", b" ", document.data)
+    data = re.sub(rb"[\t\r\n]", b" ", document.changed())
     return re.sub(rb">\s+(?=[^<\s])", b">", re.sub(rb"(?<=[^>\s])\s+<", b"<", data))

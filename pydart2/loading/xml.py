@@ -74,6 +74,7 @@ class Document:
     path: str | None
     data: bytes
     root: Element
+    _edits: list[tuple[int, int, bytes]] = field(default_factory=list)
 
     def error(self, element: Element | int, reason: str) -> LoadError:
         """A LoadError at an element or a line."""
@@ -81,10 +82,39 @@ class Document:
 
     def remove(self, elements: list[Element]) -> None:
         """Overwrite elements with spaces; the lines of all others stay."""
+        for element in elements:
+            self._edits = [edit for edit in self._edits if not element.start <= edit[0] < element.end]
         data = bytearray(self.data)
         for element in elements:
             data[element.start : element.end] = re.sub(rb"[^\n]", b" ", data[element.start : element.end])
         self.data = bytes(data)
+
+    def append(self, element: Element, xml: bytes) -> None:
+        """Let changed() have more at the end of an element."""
+        if self.data.endswith(b"/>", element.start, element.end):
+            self._edits.append((element.end - 2, element.end, b">" + xml + f"</{element.tag}>".encode()))
+        else:
+            end = self.data.rindex(b"</", element.start, element.end)
+            self._edits.append((end, end, xml))
+
+    def set(self, element: Element, attribute: str, value: str) -> None:
+        """Let changed() have an attribute's new value, which needs no escapes."""
+        element.attributes[attribute] = value
+        tag = _TAG.match(self.data, element.start)
+        found = re.search(rb"\s%s\s*=\s*(\"[^\"]*\"|'[^']*')" % re.escape(attribute.encode()), tag[0]) if tag else None
+        place = element.start + 1 + len(element.tag.encode())
+        new = f' {attribute}="{value}"'.encode()
+        start, end = (element.start + found.start(), element.start + found.end()) if found else (place, place)
+        self._edits = [edit for edit in self._edits if edit[:2] != (start, end)]
+        self._edits.append((start, end, new))
+
+    def changed(self) -> bytes:
+        """The bytes with what append() and set() ask for."""
+        pieces, at = [], 0
+        for start, end, new in sorted(self._edits, key=lambda edit: edit[:2]):
+            pieces += [self.data[at:start], new]
+            at = end
+        return b"".join([*pieces, self.data[at:]])
 
 
 def parse(data: bytes, path: str | None) -> Document:

@@ -13,6 +13,7 @@
 #include "base/errors.hpp"
 #include "base/messages.hpp"
 #include "collision/detector.hpp"
+#include "dynamics/weightless.hpp"
 #include "engine/boxed_lcp.hpp"
 #include "engine/shared_scenes.hpp"
 #include "loading/loading.hpp"
@@ -35,13 +36,17 @@ class Solver final : public dart::constraint::BoxedLcpConstraintSolver
   }
 };
 
-/// What every user of a model does: its mass matrix, forces and one step.
+/// What every user of a model does: its mass matrix, forces and, if it has the mass to move, one step.
 void use(dart::simulation::World& world)
 {
+  bool moves = true;
   for (std::size_t i = 0; i < world.getNumSkeletons(); ++i) {
+    moves = moves && pydart2::weightless_body(*world.getSkeleton(i)) == nullptr;
     world.getSkeleton(i)->getMassMatrix();
     world.getSkeleton(i)->getCoriolisAndGravityForces();
   }
+  if (!moves)
+    return;
   try {
     world.step();
   } catch (const pydart2::Error& error) {

@@ -88,10 +88,10 @@ def check_skeleton(skeleton: Any, expected: dict[str, Any]) -> None:
     check_poses(skeleton, expected)
 
 
-def robot(path: str) -> Iterator[Any]:
+def robot(path: str, **options: Any) -> Iterator[Any]:
     world = pydart2.World(0.001)
     world.set_gravity([0.0, 0.0, -9.81])
-    yield world.add_skeleton(pydart2.data_path(path))
+    yield world.add_skeleton(pydart2.data_path(path), **options)
 
 
 @pytest.fixture
@@ -125,9 +125,15 @@ def test_atlas_shapes(atlas: Any) -> None:
 
 
 def test_pr2(pr2: Any) -> None:
-    check_skeleton(pr2, figures("pr2"))
+    """The engine gives 1 kg to twelve fixed frames that state no mass; here they have none."""
+    published = next(robot(PR2, engine_defaults=True))
+    check_skeleton(published, figures("pr2"))
     assert (len(pr2.bodynodes), len(pr2.dofs)) == (88, 51)
-    assert pr2.m == pytest.approx(280.732178, abs=1e-6)
+    assert published.m == pytest.approx(280.732178, abs=1e-6)
+    assert pr2.m == pytest.approx(268.732178, abs=1e-6)
+    changed = {a.name: (a.m, b.m) for a, b in zip(pr2.bodynodes, published.bodynodes) if a.m != b.m}
+    assert set(changed.values()) == {(0.0, 1.0)} and len(changed) == 12
+    assert all(pr2.body(name).parent_joint.type() == "WeldJoint" for name in changed)
     assert pr2.dofs[5].name == "rootJoint_pos_z"
 
 

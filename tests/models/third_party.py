@@ -87,7 +87,7 @@ def engine_load(path: Path) -> list[Any] | None:
 
 def our_load(path: Path, **options: Any) -> list[tuple[int, Any, Any]]:
     """Dofs, q and M of each skeleton, loaded here."""
-    world = pydart2.World(0.001, path, reader="engine", **options)
+    world = pydart2.World(0.001, path, reader="engine", engine_defaults=True, **options)
     world.step()  # whatever loads can be simulated
     world.reset()
     return [(skel.ndofs, np.array(skel.q), skel.M) for skel in world.skeletons]

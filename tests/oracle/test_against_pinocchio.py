@@ -45,15 +45,11 @@ def folder() -> Path:
 
 
 def kinematic_xml(path: Path) -> str:
-    """A robot without its shapes; a link without inertia gets the engine's, 1 kg and 1 kg m²."""
+    """A robot without its shapes."""
     root = ElementTree.fromstring(re.sub(r"<\?xml.*?\?>", "", path.read_text()))
     for link in root.iter("link"):
         for shape in link.findall("visual") + link.findall("collision"):
             link.remove(shape)
-        if link.find("inertial") is None:
-            inertial = ElementTree.SubElement(link, "inertial")
-            ElementTree.SubElement(inertial, "mass", value="1")
-            ElementTree.SubElement(inertial, "inertia", ixx="1", iyy="1", izz="1", ixy="0", ixz="0", iyz="0")
     for joint in root.iter("joint"):
         for mimic in joint.findall("mimic"):  # which Pinocchio leaves out
             joint.remove(mimic)
@@ -78,7 +74,7 @@ class Pair:
         self.data = self.model.createData()
         world = World(0.001)
         world.set_gravity(G)
-        self.skel: Skeleton = world.add_skeleton(xml)
+        self.skel: Skeleton = world.add_skeleton(xml, massless=True)
         if not floating:
             self.skel.set_root_joint_to_weld()
         n = self.skel.ndofs

@@ -48,7 +48,7 @@ def load(path: Path) -> pydart2.World:
     if path.suffix == ".skel":
         return pydart2.World(0.001, path)
     world = pydart2.World(0.001)
-    world.add_skeleton(path)
+    world.add_skeleton(path, engine_defaults=True)
     return world
 
 

@@ -1,5 +1,6 @@
 #include "loading/loading.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/utils/SkelParser.hpp>
@@ -7,6 +8,7 @@
 #include <dart/utils/mjcf/MjcfParser.hpp>
 #include <dart/utils/sdf/SdfParser.hpp>
 #include <dart/utils/urdf/DartLoader.hpp>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "base/messages.hpp"
@@ -87,6 +89,19 @@ void check_skeleton(Skeleton& skeleton, bool lenient)
     remove_empty_shapes(*body, lenient);
     check_body(*body);
   }
+}
+
+/// What weighs nothing is meant so: the engine's warning about it is dropped.
+void forget_zero_masses()
+{
+  auto said = messages::take();
+  said.erase(
+      std::remove_if(
+          said.begin(),
+          said.end(),
+          [](const auto& message) { return message.text.find("negative or zero mass [0]") != std::string::npos; }),
+      said.end());
+  messages::give(std::move(said));
 }
 
 /// Not by createFromPath(), which takes '#' and '?' in a path for parts of a URI.
@@ -173,6 +188,7 @@ WorldPtr load_world(const ModelSource& source)
     throw Error(Kind::load, "its gravity is not finite");
   for (std::size_t i = 0; i < world->getNumSkeletons(); ++i)
     check_skeleton(*world->getSkeleton(i), source.lenient());
+  forget_zero_masses();
   return world;
 }
 
@@ -182,6 +198,7 @@ SkeletonPtr load_skeleton(const ModelSource& source)
     return built::skeleton_of(source.texts().at(""));
   auto skeleton = parse([&] { return parse_skeleton(source); });
   check_skeleton(*skeleton, source.lenient());
+  forget_zero_masses();
   return skeleton;
 }
 

@@ -16,6 +16,7 @@
 #include "collision/detector.hpp"
 #include "collision/native_detector.hpp"
 #include "contact/fast_solver.hpp"
+#include "dynamics/weightless.hpp"
 #include "state/dof_state.hpp"
 #include "state/limits.hpp"
 
@@ -210,8 +211,12 @@ void solve_constraints(WorldRecord& record, double time)
 namespace {
 
 /// The place to look at where the engine does not say which it is.
-std::string fastest_dof(const WorldRecord& record)
+std::string suspect(const WorldRecord& record)
 {
+  for (const auto& item : record.skeletons)
+    if (const auto* body = item->skeleton->isMobile() ? weightless_body(*item->skeleton) : nullptr)
+      return "body '" + body->getName() + "' of skeleton '" + item->skeleton->getName()
+             + "' moves without mass in it or below it: give it mass, or weld it";
   const dart::dynamics::DegreeOfFreedom* fastest = nullptr;
   for (const auto& item : record.skeletons)
     for (const auto* dof : item->skeleton->getDofs())
@@ -292,7 +297,7 @@ void advance(WorldRecord& record)
   try {
     phases(record);
   } catch (const Error& error) {
-    const std::string where = error.kind() == Kind::engine ? fastest_dof(record) : "";
+    const std::string where = error.kind() == Kind::engine ? suspect(record) : "";
     go_back(record);
     if (error.kind() != Kind::engine)
       throw;
