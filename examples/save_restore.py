@@ -43,7 +43,7 @@ if __name__ == "__main__":
     world = pydart.World(0.001, "./data/skel/cubes.skel")
     world.step(1000)  # the cubes fall and come to rest
 
-    start = world.snapshot(exact=True)
+    start = world.snapshot()
     reached = {}
     for force in FORCES.tolist():
         world.restore(start)

@@ -102,8 +102,8 @@ class Batch:
     def __init__(self, world: World, n: int, threads: int | None = None, skeleton: int = -1) -> None:
         if n < 1:
             raise ValueError(f"a batch needs one world or more, got {n}")
-        self._begin([world.clone(exact=True) for _ in range(n)], threads or len(os.sched_getaffinity(0)), skeleton)
-        self._start = self.worlds[0].snapshot(exact=True)
+        self._begin([world.clone() for _ in range(n)], threads or len(os.sched_getaffinity(0)), skeleton)
+        self._start = self.worlds[0].snapshot()
 
     def _begin(self, worlds: list[World], threads: int, skeleton: int) -> None:
         self.worlds = worlds
@@ -131,11 +131,18 @@ class Batch:
 
     # Steps
 
-    def step(self, n: int = 1) -> None:
-        """Simulate `n` time steps of every world that has not failed."""
-        self._handle.step(n)
-        for world in self.worlds:
-            world.collision_result.update()
+    def step(self, n: int = 1, out: Array | None = None) -> None:
+        """Simulate `n` time steps of every world that has not failed; `out`, of the shape of `x`, gets the states.
+
+        Ctrl-C ends it after the steps that the worlds are in; ``batch.worlds[i].frame`` says how far each is.
+        """
+        try:
+            self._handle.step(n)
+        finally:
+            for world in self.worlds:
+                world.collision_result.update()
+        if out is not None:
+            self._handle.states(out)
 
     @property
     def failed(self) -> dict[int, str]:
@@ -157,6 +164,7 @@ class Batch:
         actions: ArrayLike,
         hold: int = 1,
         progress: Callable[[int, int], object] | None = None,
+        out: Array | None = None,
     ) -> Trajectories:
         """Simulate all worlds from given states under given forces, in one call.
 
@@ -172,6 +180,8 @@ class Batch:
             How many steps each action is held for.
         progress
             Called as ``progress(done, T)`` about a hundred times; an exception in it ends the rollout.
+        out
+            Where the states go, float64 of shape (N, T + 1, 2 * sum of ndofs); default: a new array.
         """
         self.reset()
         if initial_states is not None:
@@ -182,7 +192,10 @@ class Batch:
             raise ValueError(f"actions need shape ({n}, T, {ndofs}) or (T, {ndofs}), got {forces.shape}")
         times = forces.shape[-2]
         forces = np.broadcast_to(forces, (n, times, ndofs))
-        states = np.full((n, times + 1, self.x.shape[1]), np.nan)
+        states = np.empty((n, times + 1, self.x.shape[1])) if out is None else out
+        if states.shape != (n, times + 1, self.x.shape[1]) or states.dtype != np.float64:
+            raise ValueError(f"out needs shape {(n, times + 1, self.x.shape[1])} and float64, got {states.shape}")
+        states[:] = np.nan
         states[:, 0] = self.x
         chunk = times if progress is None else max(1, times // 100)
         for begin in range(0, times, chunk or 1):

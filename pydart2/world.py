@@ -17,7 +17,7 @@ from pydart2.assignment import Assignable
 from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
-from pydart2.errors import DestroyedError, NameNotFound, SimulationError
+from pydart2.errors import DestroyedError, NameNotFound
 from pydart2.recording import Recording
 from pydart2.skeleton import Skeleton, _compute_of
 from pydart2.state import Snapshot, model_hash
@@ -132,6 +132,8 @@ class World(WorldBuilding, Upright, Assignable):
     BULLET_COLLISION_DETECTOR: ClassVar[int] = 2
     ODE_COLLISION_DETECTOR: ClassVar[int] = 3
     NATIVE_COLLISION_DETECTOR: ClassVar[int] = 10
+
+    _copies_exactly = True  # clone(exact=False) takes it back for as long as it copies
 
     #: The class of the skeletons that the world makes.
     CLASS_SKELETON: ClassVar[type[Skeleton]] = Skeleton
@@ -353,7 +355,8 @@ class World(WorldBuilding, Upright, Assignable):
 
         Before each, skeletons with a controller get the forces that it computes. Forces and external forces act in one
         step and are cleared after it. If the simulation blows up, the world is as before the failed step, without
-        contacts, and SimulationError is raised.
+        contacts, and SimulationError is raised; see set_blow_up(). Ctrl-C ends it after the step that it is in; `frame`
+        says which.
         """
         try:
             if self._controlled and n > 0:
@@ -363,7 +366,7 @@ class World(WorldBuilding, Upright, Assignable):
                     self._step(1)
             else:
                 self._step(n)
-        except SimulationError:
+        except BaseException:
             self.collision_result.update()
             raise
         self.collision_result._looked = None  # as update(), without the call
@@ -411,16 +414,25 @@ class World(WorldBuilding, Upright, Assignable):
 
     # State and copies
 
-    def snapshot(self, exact: bool = False) -> Snapshot:
+    def snapshot(self, exact: bool = True) -> Snapshot:
         """All that a step changes and the next one depends on, for restore().
 
-        Taking it changes nothing. But the FCL and Bullet detectors remember earlier steps, in the order of the contacts
-        that they find, and so does a ball joint constraint; this memory is not in a snapshot, and restore() empties it.
-        After ``snapshot(exact=True)``, which empties it here too, the world's next steps are bit for bit those after
-        restore(), with every detector.
+        The world's next steps are bit for bit those after restore(), with every detector. For that it forgets what
+        detectors and constraints remember of earlier steps, which is in no snapshot: the order of its next contacts may
+        differ from that of a world that was left alone, and with it their last bits. A fall of the humanoid in
+        `skel/fullbody1.skel` is another one after a second or two. ``exact=False`` changes nothing here.
+
+        Raises SimulationError if the world has blown up and reads NaN.
         """
-        values = self._handle.snapshot(exact)
+        if exact:
+            self._forget_history()
+        values = self._handle.snapshot()
         return Snapshot(values, self.collision_result.rows, model_hash(self._handle))
+
+    def _forget_history(self) -> None:
+        """What the detector and the constraints remember of earlier steps, but not the contacts of the last one."""
+        self.collision_result = self.collision_result.copy()
+        self._handle.forget_history()
 
     def restore(self, snapshot: Snapshot, strict: bool = True) -> None:
         """Put the state of a snapshot back, of this world or of one with an equal model. The recording goes on.
@@ -436,24 +448,31 @@ class World(WorldBuilding, Upright, Assignable):
         self._handle.restore(snapshot.values)
         self.collision_result = CollisionResult.from_rows(self, snapshot.contacts)
 
-    def clone(self, exact: bool = False) -> World:
+    def clone(self, exact: bool = True) -> World:
         """A world of its own that is equal in everything: model, all changes to it, state, and the user's attributes.
 
         It is made anew from the texts that were loaded, and then brought to where this one is; files of meshes must
         still be there.
         Controllers and attributes are deep copies that refer to the clone. The clone records if this world does, from
-        now on. For `exact` see snapshot(). ``copy.deepcopy`` does the same, and ``pickle`` does it across processes.
+        now on. Both go on bit for bit alike; for `exact` see snapshot(). ``copy.deepcopy`` does the same, and
+        ``pickle`` does it across processes.
 
         Raises LoadError if such a file is gone.
         """
         if exact:
-            self._handle.snapshot(True)
-        return copy.deepcopy(self)
+            return copy.deepcopy(self)
+        self._copies_exactly = False
+        try:
+            return copy.deepcopy(self)
+        finally:
+            del self._copies_exactly
 
     def __copy__(self) -> World:
         return self.clone()
 
     def __reduce__(self) -> tuple[object, ...]:
+        if self._copies_exactly:
+            self._forget_history()
         blueprint = self._handle.blueprint()
         recording_limit = self._handle.recording_limit() if self.is_recording() else None
         classes = [type(skel) for skel in self.skeletons]
@@ -465,6 +484,7 @@ class World(WorldBuilding, Upright, Assignable):
             "collision_result",
             "collision_filter",
             "_under_construction",
+            "_copies_exactly",
         )
         state = {name: value for name, value in self.__dict__.items() if name not in made_anew}
         return _rebuild, (type(self), blueprint, self.collision_result.rows, recording_limit, classes), state
@@ -584,6 +604,34 @@ class World(WorldBuilding, Upright, Assignable):
         unit impulse gives, and P what brings an impulse within its bounds or into the friction cone.
         """
         return self._handle.solver_residual()
+
+    def set_deterministic(self, enable: bool = True) -> None:
+        """Make each step a function of the state alone, by forgetting first what detectors and constraints remember.
+
+        The order of contacts is then not the engine's, and a step of `skel/fullbody1.skel` takes 0.2 ms more. With a
+        warm start the state is that of a snapshot, which `x` is not.
+        """
+        self._handle.set_deterministic(enable)
+
+    def is_deterministic(self) -> bool:
+        """Whether each step is a function of the state alone."""
+        return self._handle.deterministic()
+
+    def set_blow_up(self, manner: str) -> None:
+        """Choose what a step does whose numbers become infinite: "raise" (default) a SimulationError, or "nan".
+
+        With "nan" the skeletons concerned read NaN in `q`, `dq`, `ddq` and `x` from then on, as older code awaits that
+        asks ``np.isfinite(skel.q).all()``. Forces and commands that are set on them are ignored, further steps change
+        the time alone, the other skeletons stay. reset(), restore(), set_states(), or a new `q` of the skeleton bring
+        them back. Clones, pickles and batches have the setting; a world that reads NaN cannot be copied.
+        """
+        if manner not in ("raise", "nan"):
+            raise ValueError(f'a step that blows up can "raise" or give "nan", got {manner!r}')
+        self._handle.set_nan_at_blow_up(manner == "nan")
+
+    def blow_up(self) -> str:
+        """What a step does whose numbers become infinite: "raise" or "nan"."""
+        return "nan" if self._handle.nan_at_blow_up() else "raise"
 
     def set_contact_reduction(self, enable: bool = True) -> None:
         """Let at most four contacts of each pair of faces bear forces, those that span the largest area.

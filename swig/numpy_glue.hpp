@@ -16,6 +16,7 @@
 
 #include "base/arrays.hpp"
 #include "base/errors.hpp"
+#include "base/interrupt.hpp"
 #include "base/messages.hpp"
 #include "python/contact_row.hpp"
 #include "python/named_vector.hpp"
@@ -107,7 +108,7 @@ private:
   PyObject* passed_ = nullptr;
 };
 
-/// Releases the interpreter lock for the time of a long call.
+/// Releases the interpreter lock for the time of a long call, which Python's signal handlers (Ctrl-C) may end.
 class WithoutGil
 {
 public:
@@ -143,8 +144,22 @@ private:
     }
   }
 
+  /// Python runs handlers on the main thread only.
+  static void run_signal_handlers(void* self)
+  {
+    if (gettid() != getpid())
+      return;
+    auto& state = static_cast<WithoutGil*>(self)->state_;
+    static_cast<WithoutGil*>(self)->take_back();
+    const bool raised = PyErr_CheckSignals() != 0;
+    state = PyEval_SaveThread();
+    if (raised)
+      throw ErrorIsSet{};
+  }
+
   inline static std::atomic<int> running{0};
   PyThreadState* state_;
+  const Interruptible interruptible_{run_signal_handlers, this};
 };
 
 /// Raises pydart2.errors.<name>.

@@ -99,6 +99,8 @@ def read_bytes(path: str) -> bytes:
     try:
         if os.path.isdir(path):
             raise LoadError.at(path, None, "it is a folder, not a model file")
+        if os.path.exists(path) and not os.path.isfile(path):
+            raise LoadError.at(path, None, "it is a pipe or a device, not a model file; pass its content as text")
         packed = not os.path.exists(path) and os.path.exists(path + ".gz")
         with gzip.open(path + ".gz") if packed else open(path, "rb") as file:
             return file.read(MAX_BYTES + 1)

@@ -21,7 +21,7 @@ def main() -> None:
             world.step(3)
             skel = world.skeletons[-1]
             _ = world.collision_result.contacts, skel.q, skel.M, skel.bodynodes[0].J
-            world.restore(world.snapshot(exact=True))
+            world.restore(world.snapshot())
             pickle.loads(pickle.dumps(world)).clone().step()
             with contextlib.suppress(ValueError):
                 skel.q = [float("nan")] * skel.ndofs

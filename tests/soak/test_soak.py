@@ -77,7 +77,7 @@ def test_contacts_snapshots_and_copies(tmp_path: Path, detector: int) -> None:
     world.set_collision_detector(detector)
 
     def work() -> None:
-        start = world.snapshot(exact=True)
+        start = world.snapshot()
         world.step(5)
         world.restore(start)
         clone = world.clone()

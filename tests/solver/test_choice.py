@@ -168,7 +168,7 @@ def test_warm_start_is_kept_and_restored() -> None:
     world = warm(standing_atlas())
     world.set_collision_detector(world.BULLET_COLLISION_DETECTOR)
     world.step(100)
-    snapshot = world.snapshot(exact=True)
+    snapshot = world.snapshot()
     twin = world.clone()
     after = results(world, 50)
     world.restore(snapshot)

@@ -120,7 +120,7 @@ def test_copies_are_equal_bit_for_bit(copied) -> None:
     assert [s.name for s in other.skeletons] == [s.name for s in world.skeletons]
     assert [m.label for m in other.skeletons[1].markers] == ["tip", "foot"]
     assert other.snapshot() == world.snapshot()
-    world.snapshot(exact=True)
+    world.snapshot()
     world.step(20)
     other.step(20)
     assert np.array_equal(other.x, world.x)
@@ -131,7 +131,7 @@ def test_batches_and_snapshots_and_recordings_have_them() -> None:
     world = pydart.World(0.001)
     world.add_ground()
     world.add_box((0.1, 0.1, 0.1), position=(0, 1, 0))
-    before = world.snapshot(exact=True)
+    before = world.snapshot()
     batch = pydart.Batch(world, 2)
     batch.step(20)
     world.step(20)
@@ -161,7 +161,7 @@ def test_what_was_before_a_new_body_is_refused() -> None:
 def test_a_world_file_keeps_its_order_when_a_skeleton_of_it_is_changed() -> None:
     world = pydart.World(0.001, "./data/skel/cubes.skel")
     world.skeletons[1].add_body("tail", 0, "ball", position=(0, 0.2, 0)).add_sphere(0.05)
-    other = world.clone(exact=True)
+    other = world.clone()
     assert [s.name for s in other.skeletons] == [s.name for s in world.skeletons]
     world.step(50)
     other.step(50)

@@ -102,7 +102,7 @@ def test_worlds_in_threads_end_as_alone(detector: int) -> None:
         world.set_recording(False)
         for _ in range(5):
             world.step(20)
-            world = world.clone(exact=True)
+            world = world.clone()
         results.append(world.states().tobytes())
 
     alone: list[bytes] = []

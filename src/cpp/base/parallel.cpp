@@ -1,17 +1,105 @@
 #include "base/parallel.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
-#include <deque>
+#include <condition_variable>
 #include <exception>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "base/fork.hpp"
 #include "base/messages.hpp"
 
 namespace pydart2 {
+
+namespace {
+
+/// A thread that sleeps between its jobs, until the process ends.
+class Worker
+{
+public:
+  Worker() : thread_(&Worker::live, this) { thread_.detach(); }
+
+  void begin(std::function<void()> job)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    job_ = std::move(job);
+    changed_.notify_all();
+  }
+
+  void wait()
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return !job_; });
+  }
+
+private:
+  void live()
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    for (;;) {
+      changed_.wait(lock, [this] { return static_cast<bool>(job_); });
+      lock.unlock();
+      job_();
+      lock.lock();
+      job_ = nullptr;
+      changed_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::function<void()> job_;
+  std::thread thread_;
+};
+
+/// Workers without a job. Those of the parent process are not in a child.
+class Pool
+{
+public:
+  static Pool& instance()
+  {
+    static auto& pool = *new Pool; // for ever: so do its threads
+    return pool;
+  }
+
+  /// As many as there are to be had, at most `count`.
+  std::vector<Worker*> take(std::size_t count)
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(process_, getpid()) != getpid())
+      idle_.clear();
+    const auto kept = idle_.size() - std::min(idle_.size(), count);
+    std::vector<Worker*> taken(idle_.begin() + static_cast<std::ptrdiff_t>(kept), idle_.end());
+    idle_.resize(kept);
+    try {
+      while (taken.size() < count)
+        taken.push_back(new Worker);
+    } catch (const std::system_error&) { // no more threads: those that there are do it
+    }
+    return taken;
+  }
+
+  void give_back(const std::vector<Worker*>& workers)
+  {
+    const std::lock_guard lock(mutex_);
+    idle_.insert(idle_.end(), workers.begin(), workers.end());
+  }
+
+private:
+  HeldOverFork<std::mutex> mutex_{ForkOrder::innermost};
+  std::vector<Worker*> idle_;
+  pid_t process_ = getpid();
+};
+
+} // namespace
 
 void parallel_for(std::size_t count, std::size_t num_threads, const std::function<void(std::size_t)>& work)
 {
@@ -26,23 +114,20 @@ void parallel_for(std::size_t count, std::size_t num_threads, const std::functio
       }
     }
   };
-  std::deque<std::vector<messages::Message>> said;
-  const auto help = [&take_turns](std::vector<messages::Message>& said_here) {
-    const messages::Listening listening;
-    take_turns();
-    said_here = messages::take();
-  };
-  std::vector<std::thread> others;
-  while (others.size() + 1 < std::min(num_threads, count)) {
-    try {
-      others.emplace_back(help, std::ref(said.emplace_back()));
-    } catch (const std::system_error&) {
-      break; // no more threads to be had: those that there are do it
-    }
-  }
+  const std::size_t wanted = std::min(num_threads, count);
+  const auto workers = wanted > 1 ? Pool::instance().take(wanted - 1) : std::vector<Worker*>();
+  std::vector<std::vector<messages::Message>> said(workers.size());
+  for (std::size_t i = 0; i < workers.size(); ++i)
+    workers[i]->begin([&take_turns, &said_here = said[i]] {
+      const messages::Listening listening;
+      take_turns();
+      said_here = messages::take();
+    });
   take_turns();
-  for (auto& thread : others)
-    thread.join();
+  for (auto* worker : workers)
+    worker->wait();
+  if (!workers.empty())
+    Pool::instance().give_back(workers);
   for (auto& messages : said)
     messages::give(std::move(messages));
   for (const auto& exception : thrown)

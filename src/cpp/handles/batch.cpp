@@ -1,10 +1,12 @@
 #include "handles/batch.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <dart/constraint/ConstraintSolver.hpp>
 
 #include "base/checks.hpp"
 #include "base/errors.hpp"
+#include "base/interrupt.hpp"
 #include "base/parallel.hpp"
 #include "state/stepping.hpp"
 #include "state/world_states.hpp"
@@ -12,6 +14,11 @@
 namespace pydart2 {
 
 namespace {
+
+/// Ends the work of a world where another's was interrupted.
+struct Stop
+{
+};
 
 /// Whether two worlds have as many dofs in each of as many skeletons.
 bool alike(const WorldRecord& a, const WorldRecord& b)
@@ -75,17 +82,29 @@ std::deque<Busy> BatchHandle::claim() const
   return claims;
 }
 
-/// Runs work(world, index) for the worlds that have not failed. What is thrown becomes the world's error.
+/// Runs work(world, index, step) for the worlds that have not failed, where step() is one of that world. What the engine
+/// throws becomes the world's error; when the user interrupts, all stop after the step that they are in.
 template <class Work>
 void BatchHandle::each_world(Work work)
 {
+  std::atomic<bool> interrupted{false};
   parallel_for(worlds_.size(), num_threads_, [&](std::size_t i) {
-    if (has_failed(i))
+    if (interrupted || has_failed(i))
       return;
+    const auto step = [&] {
+      if (interrupted)
+        throw Stop();
+      advance(*worlds_[i]);
+      Interruptible::poll();
+    };
     try {
-      work(*worlds_[i], i);
+      work(*worlds_[i], i, step);
     } catch (const Error& error) {
       set_error(static_cast<long>(i), error.what());
+    } catch (const Stop&) {
+    } catch (...) {
+      interrupted = true;
+      throw;
     }
   });
 }
@@ -93,9 +112,9 @@ void BatchHandle::each_world(Work work)
 void BatchHandle::step(long count)
 {
   check::not_negative(static_cast<double>(count), "the number of steps");
-  each_world([count](WorldRecord& world, std::size_t) {
+  each_world([count](WorldRecord&, std::size_t, const auto& step) {
     for (long i = 0; i < count; ++i)
-      advance(world);
+      step();
   });
 }
 
@@ -113,14 +132,14 @@ void BatchHandle::rollout(long skeleton, const MatrixIn& actions, long hold, con
   check::shape(actions, worlds_.size(), static_cast<std::size_t>(times * num_dofs), "actions");
   check::shape({trajectories.data, trajectories.rows, trajectories.cols}, worlds_.size(),
                static_cast<std::size_t>(times * size), "trajectories");
-  each_world([&](WorldRecord& world, std::size_t i) {
+  each_world([&](WorldRecord& world, std::size_t i, const auto& step) {
     auto& skel = *world.skeletons[chosen]->skeleton;
     const double* action = actions.data + static_cast<long>(i) * actions.cols;
     double* row = trajectories.data + static_cast<long>(i) * trajectories.cols;
     for (long t = 0; t < times; ++t, action += num_dofs, row += size) {
       for (long k = 0; k < hold; ++k) {
         skel.setForces(Row(action, num_dofs));
-        advance(world);
+        step();
       }
       write_states(world, row);
     }

@@ -1,5 +1,7 @@
 #include "handles/dof.hpp"
 
+#include <limits>
+
 #include "base/checks.hpp"
 
 namespace pydart2 {
@@ -36,7 +38,8 @@ int DofHandle::tree_index() const
 
 double DofHandle::position() const
 {
-  return dof_->getPosition();
+  const auto& dof = *dof_; // throws if it is gone
+  return dof_.skeleton->not_numbers ? std::numeric_limits<double>::quiet_NaN() : dof.getPosition();
 }
 
 void DofHandle::set_position(double position)
@@ -87,7 +90,8 @@ void DofHandle::set_position_upper_limit(double limit)
 
 double DofHandle::velocity() const
 {
-  return dof_->getVelocity();
+  const auto& dof = *dof_;
+  return dof_.skeleton->not_numbers ? std::numeric_limits<double>::quiet_NaN() : dof.getVelocity();
 }
 
 void DofHandle::set_velocity(double velocity)

@@ -193,19 +193,25 @@ std::vector<std::string> SkeletonHandle::dof_names() const
   return names;
 }
 
+const DofState& SkeletonHandle::state() const
+{
+  const auto& not_numbers = skeleton_.skeleton->not_numbers;
+  return not_numbers ? *not_numbers : state_;
+}
+
 void SkeletonHandle::positions(Output& like) const
 {
-  gather(state_.positions, like);
+  gather(state().positions, like);
 }
 
 void SkeletonHandle::velocities(Output& like) const
 {
-  gather(state_.velocities, like);
+  gather(state().velocities, like);
 }
 
 void SkeletonHandle::accelerations(Output& like) const
 {
-  gather(state_.accelerations, like);
+  gather(state().accelerations, like);
 }
 
 void SkeletonHandle::forces(Output& like) const
@@ -222,6 +228,7 @@ void SkeletonHandle::set_positions(const VectorIn& positions)
 {
   // Joint by joint; a method of dart::dynamics::Skeleton would make every dof a change of its own.
   const auto& values = per_dof(positions, "positions");
+  skeleton_.world->become_numbers(*skeleton_.skeleton);
   for (std::size_t i = 0; i < dofs_.size();) {
     auto& joint = *dofs_[i]->getJoint();
     const auto size = joint.getNumDofs();
@@ -248,6 +255,8 @@ void SkeletonHandle::set_accelerations(const VectorIn& accelerations)
 
 void SkeletonHandle::set_forces(const VectorIn& forces)
 {
+  if (skeleton_.skeleton->not_numbers)
+    return; // nothing moves, and what a controller makes of NaN is NaN
   const auto& values = per_dof(forces, "forces");
   for (std::size_t i = 0; i < dofs_.size(); ++i)
     dofs_[i]->setForce(values[static_cast<long>(i)]);
@@ -255,16 +264,18 @@ void SkeletonHandle::set_forces(const VectorIn& forces)
 
 void SkeletonHandle::set_commands(const VectorIn& commands)
 {
-  skeleton().setCommands(per_dof(commands, "commands"));
+  if (!skeleton_.skeleton->not_numbers)
+    skeleton().setCommands(per_dof(commands, "commands"));
 }
 
 void SkeletonHandle::states(Output& into) const
 {
   skeleton_.get();
-  double* state = into.vector(2 * static_cast<long>(dofs_.size()));
-  for (const auto* places : {&state_.positions, &state_.velocities})
+  const auto& from = state();
+  double* value = into.vector(2 * static_cast<long>(dofs_.size()));
+  for (const auto* places : {&from.positions, &from.velocities})
     for (const double* place : *places)
-      *state++ = *place;
+      *value++ = *place;
 }
 
 void SkeletonHandle::set_states(const VectorIn& states)
@@ -272,6 +283,7 @@ void SkeletonHandle::set_states(const VectorIn& states)
   auto& skel = skeleton();
   check::size(states.size, 2 * dofs_.size(), "states [q, dq]");
   check::finite(states, "states");
+  skeleton_.world->become_numbers(*skeleton_.skeleton);
   skel.setPositions(states.eigen().head(states.size / 2));
   skel.setVelocities(states.eigen().tail(states.size / 2));
 }

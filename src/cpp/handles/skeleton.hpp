@@ -118,6 +118,9 @@ private:
   void tree_changed(RootChange change);
   void check_new_name(const std::string& name, bool taken, const char* what) const;
 
+  /// Places of the engine's numbers, or of NaN after a blow-up that was not raised.
+  const DofState& state() const;
+
   /// Writes the numbers at the given places, or one number of each dof.
   void gather(const std::vector<const double*>& places, Output& out) const;
   template <class Read>

@@ -6,6 +6,7 @@
 
 #include "base/checks.hpp"
 #include "base/errors.hpp"
+#include "base/interrupt.hpp"
 #include "base/messages.hpp"
 #include "collision/detector.hpp"
 #include "contact/fast_solver.hpp"
@@ -197,11 +198,12 @@ long WorldHandle::frame() const
 void WorldHandle::reset()
 {
   auto& record = world();
+  record.become_numbers();
   record.world->reset();
   for (const auto& skeleton : record.skeletons)
     reset_skeleton(*skeleton->skeleton);
   if (record.frame > 0) // a fresh world's detector has the engine's own order of contacts
-    forget_history(record);
+    pydart2::forget_history(record);
   fast_solver(*record.world).forget();
   record.frame = 0;
   if (record.recording.enabled())
@@ -216,6 +218,7 @@ void WorldHandle::step(long count)
     advance(*record_);
     if (record_->recording.enabled())
       record(*record_);
+    Interruptible::poll();
   }
 }
 
@@ -281,6 +284,26 @@ int WorldHandle::solver_iterations() const
 double WorldHandle::solver_residual() const
 {
   return fast_solver(*world().world).iterative().residual();
+}
+
+bool WorldHandle::deterministic() const
+{
+  return world().deterministic;
+}
+
+void WorldHandle::set_deterministic(bool enable)
+{
+  world().deterministic = enable;
+}
+
+bool WorldHandle::nan_at_blow_up() const
+{
+  return world().nan_at_blow_up;
+}
+
+void WorldHandle::set_nan_at_blow_up(bool enable)
+{
+  world().nan_at_blow_up = enable;
 }
 
 bool WorldHandle::contact_reduction() const

@@ -78,6 +78,11 @@ public:
   double solver_residual() const;
 
   /// At most four contacts of each pair of faces.
+  bool deterministic() const;
+  void set_deterministic(bool enable);
+  bool nan_at_blow_up() const;
+  void set_nan_at_blow_up(bool enable);
+
   bool contact_reduction() const;
   void set_contact_reduction(bool enable);
   bool warm_start() const;
@@ -113,9 +118,11 @@ public:
   bool remove_constraint(long id);
   void remove_all_constraints();
 
-  /// All that a step changes and the next one depends on. With `exact` the world first forgets what its detector and
-  /// its constraints remember of earlier steps, so that its next steps are those after restore(), bit for bit.
-  void snapshot(bool exact, Output& out);
+  /// What the detector and the constraints remember of earlier steps; the next steps are then those of a copy, bit for bit.
+  void forget_history();
+
+  /// All that a step changes and the next one depends on.
+  void snapshot(Output& out);
   void restore(const VectorIn& snapshot);
 
   /// All that a user may have changed and a step does not.

@@ -19,12 +19,14 @@ void write(const std::vector<double>& numbers, Output& out)
 
 } // namespace
 
-void WorldHandle::snapshot(bool exact, Output& out)
+void WorldHandle::forget_history()
 {
-  auto& record = world();
-  if (exact)
-    forget_history(record);
-  write(state_of(record), out);
+  pydart2::forget_history(world());
+}
+
+void WorldHandle::snapshot(Output& out)
+{
+  write(state_of(world()), out);
 }
 
 void WorldHandle::restore(const VectorIn& snapshot)

@@ -1,6 +1,7 @@
 #include "state/dof_state.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <cstring>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/GenericJoint.hpp>
@@ -70,6 +71,13 @@ DofState::DofState(const dart::dynamics::Skeleton& skeleton)
     if (i == 0)
       joints_.push_back({&joint, address.at_rest});
   }
+}
+
+void DofState::become_not_numbers()
+{
+  static const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (auto* places : {&positions, &velocities, &accelerations})
+    places->assign(places->size(), &nan);
 }
 
 bool DofState::commands_at_rest() const

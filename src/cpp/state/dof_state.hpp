@@ -13,6 +13,9 @@ struct DofState
 
   std::size_t size() const { return positions.size(); }
 
+  /// From now on all places hold NaN.
+  void become_not_numbers();
+
   /// Whether Skeleton::resetCommands() would change nothing.
   bool commands_at_rest() const;
 

@@ -114,6 +114,14 @@ void visit_settings(Archive& archive, WorldRecord& record)
   archive.number([&] { return solver.memory_limit(); }, [&](double bytes) { solver.set_memory_limit(bytes); });
 }
 
+void visit_manner_of_steps(Archive& archive, WorldRecord& record)
+{
+  if (!archive.part("manner of steps", record.deterministic || record.nan_at_blow_up))
+    return;
+  archive.number([&] { return double(record.deterministic); }, [&](double on) { record.deterministic = on != 0.0; });
+  archive.number([&] { return double(record.nan_at_blow_up); }, [&](double on) { record.nan_at_blow_up = on != 0.0; });
+}
+
 void visit_kinds(Archive& archive, std::vector<ConstraintRecord>& constraints)
 {
   for (auto& record : constraints) {
@@ -211,6 +219,7 @@ void visit_model(Archive& archive, WorldRecord& record)
   visit_constraints(archive, record);
   visit_armature(archive, record);
   visit_settings(archive, record);
+  visit_manner_of_steps(archive, record);
 }
 
 } // namespace pydart2

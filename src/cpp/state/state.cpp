@@ -7,6 +7,7 @@
 
 #include "base/archive.hpp"
 #include "base/checks.hpp"
+#include "base/errors.hpp"
 #include "collision/detector.hpp"
 #include "contact/fast_solver.hpp"
 #include "state/constraint_record.hpp"
@@ -115,6 +116,8 @@ std::vector<double> with_motors(const WorldRecord& record, std::vector<double> s
 
 std::vector<double> state_of(WorldRecord& record)
 {
+  if (record.blown_up)
+    throw Error(Kind::simulation, "the world has blown up and has no state to copy; reset() or restore() it first");
   Archive archive;
   visit(archive, record);
   const auto memory = fast_solver(*record.world).memory();
@@ -138,6 +141,7 @@ void restore_state(WorldRecord& record, const std::vector<double>& saved)
     throw Error(Kind::value, "the snapshot does not end with what a solver with a warm start remembers");
   Archive archive({}, {state.begin(), end});
   visit(archive, record);
+  record.become_numbers();
   forget_history(record);
 }
 

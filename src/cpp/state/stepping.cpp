@@ -7,6 +7,7 @@
 #include <dart/dynamics/PointMass.hpp>
 #include <dart/dynamics/ShapeNode.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
+#include <algorithm>
 #include <cstring>
 #include <sstream>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "dynamics/weightless.hpp"
 #include "state/dof_state.hpp"
 #include "state/limits.hpp"
+#include "state/state.hpp"
 
 namespace pydart2 {
 
@@ -28,7 +30,9 @@ using dart::dynamics::BodyNode;
 using dart::dynamics::PointMass;
 using dart::dynamics::Skeleton;
 
-constexpr const char* remedy = "take smaller time steps, gains or forces, and go on from world.reset() or a snapshot";
+constexpr const char* remedy
+    = "take smaller time steps, gains or forces, and go on from world.reset() or a snapshot (world.set_blow_up(\"nan\") "
+      "lets it read NaN instead)";
 
 /// Also false for NaN.
 bool sane(double value)
@@ -47,6 +51,17 @@ std::string text(double value)
   out << value;
   return out.str();
 }
+
+} // namespace
+
+namespace {
+
+/// What world.set_blow_up("nan") makes NaN of; other errors of a step are the user's to mend.
+class BlowUp : public Error
+{
+public:
+  explicit BlowUp(const std::string& message) : Error(Kind::simulation, message) {}
+};
 
 } // namespace
 
@@ -97,6 +112,17 @@ public:
       point->clearConstraintImpulse();
   }
 
+  bool is_sane() const
+  {
+    for (const auto* places : {&dofs_.positions, &dofs_.velocities})
+      for (const double* place : *places)
+        if (!sane(*place))
+          return false;
+    return std::all_of(points_.begin(), points_.end(), [](const PointMass* point) {
+      return sane(point->getPositions()) && sane(point->getVelocities());
+    });
+  }
+
   void check_positions(double time) const
   {
     check(dofs_.positions, "position", time);
@@ -133,10 +159,9 @@ private:
 
   [[noreturn]] void blown_up(const std::string& where, const char* what, double value, double time) const
   {
-    throw Error(
-        Kind::simulation,
+    throw BlowUp(
         "the simulation blew up at t = " + text(time) + " s: " + what + " of " + where + " in skeleton '"
-            + skeleton_.getName() + "' became " + text(value) + "; " + remedy);
+        + skeleton_.getName() + "' became " + text(value) + "; " + remedy);
   }
 
   Skeleton& skeleton_;
@@ -171,11 +196,10 @@ void check_range(const WorldRecord& record, bool ode, double time)
   const double limit = ode ? 1e8 : 1e12;
   const auto check = [&](double far, const std::string& what, const BodyNode& body) {
     if (!(far <= limit))
-      throw Error(
-          Kind::simulation,
+      throw BlowUp(
           "the simulation left the range of the collision detector at t = " + text(time) + " s: " + what + " '"
-              + body.getName() + "' of skeleton '" + body.getSkeleton()->getName() + "' is " + text(far)
-              + " m from the origin along an axis, the range is " + text(limit) + " m");
+          + body.getName() + "' of skeleton '" + body.getSkeleton()->getName() + "' is " + text(far)
+          + " m from the origin along an axis, the range is " + text(limit) + " m");
   };
   for (const auto& item : record.skeletons)
     for (const auto* body : item->skeleton->getBodyNodes()) {
@@ -210,6 +234,16 @@ void solve_constraints(WorldRecord& record, double time)
 
 namespace {
 
+const dart::dynamics::DegreeOfFreedom* find_fastest_dof(const WorldRecord& record)
+{
+  const dart::dynamics::DegreeOfFreedom* fastest = nullptr;
+  for (const auto& item : record.skeletons)
+    for (const auto* dof : item->skeleton->getDofs())
+      if (fastest == nullptr || !(std::abs(dof->getVelocity()) <= std::abs(fastest->getVelocity())))
+        fastest = dof;
+  return fastest;
+}
+
 /// The place to look at where the engine does not say which it is.
 std::string suspect(const WorldRecord& record)
 {
@@ -217,15 +251,32 @@ std::string suspect(const WorldRecord& record)
     if (const auto* body = item->skeleton->isMobile() ? weightless_body(*item->skeleton) : nullptr)
       return "body '" + body->getName() + "' of skeleton '" + item->skeleton->getName()
              + "' moves without mass in it or below it: give it mass, or weld it";
-  const dart::dynamics::DegreeOfFreedom* fastest = nullptr;
-  for (const auto& item : record.skeletons)
-    for (const auto* dof : item->skeleton->getDofs())
-      if (fastest == nullptr || !(std::abs(dof->getVelocity()) <= std::abs(fastest->getVelocity())))
-        fastest = dof;
+  const auto* fastest = find_fastest_dof(record);
   if (fastest == nullptr)
     return "no skeleton has a dof";
   return "the fastest dof is '" + fastest->getName() + "' of skeleton '" + fastest->getSkeleton()->getName() + "', at "
          + text(fastest->getVelocity());
+}
+
+/// The skeletons whose state is not one any more; where all are, that of the fastest dof.
+std::vector<SkeletonRef> insane_or_fastest(const WorldRecord& record)
+{
+  std::vector<SkeletonRef> found;
+  for (const auto& item : record.skeletons)
+    if (!item->watch->is_sane())
+      found.push_back(item);
+  const auto* fastest = found.empty() ? find_fastest_dof(record) : nullptr;
+  for (const auto& item : record.skeletons)
+    if (fastest != nullptr && item->skeleton == fastest->getSkeleton())
+      found.push_back(item);
+  return found;
+}
+
+/// Of the time, which goes on also where nothing else can.
+void pass(WorldRecord& record)
+{
+  record.world->setTime(record.world->getTime() + record.world->getTimeStep());
+  ++record.frame;
 }
 
 /// World::step() up to the time, in the same order. Checks come before what would fail an assertion of the engine.
@@ -292,13 +343,24 @@ void go_back(WorldRecord& record)
 void advance(WorldRecord& record)
 {
   auto& world = *record.world;
+  if (record.blown_up)
+    return pass(record);
+  if (record.deterministic)
+    forget_history(record);
   for (const auto& item : record.skeletons)
     watch(*item).save();
   try {
     phases(record);
   } catch (const Error& error) {
+    const bool blown_up = error.kind() == Kind::engine || dynamic_cast<const BlowUp*>(&error) != nullptr;
+    const auto concerned = blown_up && record.nan_at_blow_up ? insane_or_fastest(record) : std::vector<SkeletonRef>();
     const std::string where = error.kind() == Kind::engine ? suspect(record) : "";
     go_back(record);
+    if (!concerned.empty()) {
+      for (const auto& item : concerned)
+        record.become_not_numbers(*item);
+      return pass(record);
+    }
     if (error.kind() != Kind::engine)
       throw;
     throw Error(
@@ -313,8 +375,7 @@ void advance(WorldRecord& record)
       if (!item->dofs().commands_at_rest())
         item->skeleton->resetCommands();
     }
-  world.setTime(world.getTime() + world.getTimeStep());
-  ++record.frame;
+  pass(record);
 }
 
 } // namespace pydart2

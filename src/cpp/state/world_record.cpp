@@ -1,5 +1,6 @@
 #include "state/world_record.hpp"
 
+#include <algorithm>
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
 
@@ -11,11 +12,33 @@ namespace pydart2 {
 
 const DofState& SkeletonRecord::dofs()
 {
+  if (not_numbers)
+    return *not_numbers;
   if (!found_dofs || found_structure != structure) {
     found_dofs.emplace(*skeleton);
     found_structure = structure;
   }
   return *found_dofs;
+}
+
+void WorldRecord::become_not_numbers(SkeletonRecord& skeleton)
+{
+  skeleton.not_numbers.emplace(*skeleton.skeleton);
+  skeleton.not_numbers->become_not_numbers();
+  blown_up = true;
+}
+
+void WorldRecord::become_numbers(SkeletonRecord& skeleton)
+{
+  skeleton.not_numbers.reset();
+  blown_up = std::any_of(skeletons.begin(), skeletons.end(), [](const auto& item) { return item->not_numbers.has_value(); });
+}
+
+void WorldRecord::become_numbers()
+{
+  for (const auto& item : skeletons)
+    item->not_numbers.reset();
+  blown_up = false;
 }
 
 WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string source)

@@ -48,6 +48,9 @@ struct SkeletonRecord
 
   std::optional<DofState> found_dofs;
   int found_structure = 0;
+
+  /// After a blow-up that is not raised: what is read instead, until a state is set. The engine has the last sane one.
+  std::optional<DofState> not_numbers;
 };
 using SkeletonRef = std::shared_ptr<SkeletonRecord>;
 
@@ -70,6 +73,13 @@ struct WorldRecord
     if (seen != State::ready)
       refuse(seen);
   }
+
+  /// From now on a skeleton reads NaN, and steps change only the time.
+  void become_not_numbers(SkeletonRecord& skeleton);
+
+  /// One skeleton, or all, read again what the engine has.
+  void become_numbers(SkeletonRecord& skeleton);
+  void become_numbers();
 
   /// To be called when a tree has changed: handles to its parts and what was recorded no longer fit.
   void tree_changed(SkeletonRecord& skeleton);
@@ -97,6 +107,9 @@ struct WorldRecord
   int layout = 0; ///< Changes when skeletons are removed or get another tree, so that an earlier frame no longer fits.
   bool shapes_changed = false; ///< Since the detector got them, which then has them in another order than a clone's.
   bool told_of_contact_limit = false; ///< The warning came.
+  bool deterministic = false; ///< Each step begins without what detectors and constraints remember.
+  bool nan_at_blow_up = false; ///< Instead of an error.
+  bool blown_up = false; ///< Some skeleton reads NaN.
   Recording recording;
 
 private:

@@ -22,11 +22,16 @@ void write_states(const WorldRecord& world, double* out)
 
 void read_states(WorldRecord& world, const double* in)
 {
+  world.become_numbers();
   for (const auto& record : world.skeletons) {
     auto& skeleton = *record->skeleton;
     const auto n = static_cast<long>(skeleton.getNumDofs());
-    skeleton.setPositions(Eigen::Map<const Eigen::VectorXd>(in, n));
-    skeleton.setVelocities(Eigen::Map<const Eigen::VectorXd>(in + n, n));
+    if (Eigen::Map<const Eigen::VectorXd>(in, 2 * n).hasNaN()) // a recorded frame of a blow-up
+      world.become_not_numbers(*record);
+    else {
+      skeleton.setPositions(Eigen::Map<const Eigen::VectorXd>(in, n));
+      skeleton.setVelocities(Eigen::Map<const Eigen::VectorXd>(in + n, n));
+    }
     in += 2 * n;
   }
 }

@@ -1,0 +1,84 @@
+"""Ctrl-C ends long calls between two steps, and the state says how far they came."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pydart2
+
+
+def interrupted(call: Callable[[], object], after: float = 0.3) -> float:
+    """How long the call goes on after the signal, s."""
+    sent = []
+
+    def send() -> None:
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(after, send)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        call()
+    timer.join()
+    return time.monotonic() - sent[0]
+
+
+def test_many_steps() -> None:
+    world = pydart2.World(0.001, "skel/fullbody1.skel")
+    world.disable_recording()
+    assert interrupted(lambda: world.step(1_000_000)) < 0.2
+    frame = world.frame
+    assert 0 < frame < 1_000_000
+    other = pydart2.World(0.001, "skel/fullbody1.skel")
+    other.step(frame)
+    np.testing.assert_array_equal(world.x, other.x)
+    world.step(2)
+    assert world.frame == frame + 2
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_batch(threads: int) -> None:
+    batch = pydart2.Batch(pydart2.World(0.001, "skel/chain.skel"), 4, threads=threads)
+    assert interrupted(lambda: batch.step(10_000_000)) < 0.2
+    assert batch.failed == {}
+    assert min(world.frame for world in batch.worlds) < 10_000_000
+    actions = np.zeros((100, batch.skeleton.ndofs))
+    assert interrupted(lambda: batch.rollout(None, actions, hold=100_000)) < 0.2
+    batch.reset()
+    batch.step(2)
+    assert [world.frame for world in batch.worlds] == [2] * 4
+
+
+def test_a_handler_of_the_users_runs_in_the_middle_of_a_call() -> None:
+    world = pydart2.World(0.001, "skel/chain.skel")
+    world.disable_recording()
+    ran = []
+    before = signal.signal(signal.SIGUSR1, lambda *_: ran.append(time.monotonic()))
+    try:
+        timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGUSR1))
+        timer.start()
+        world.step(60_000)
+        end = time.monotonic()
+    finally:
+        timer.join()
+        signal.signal(signal.SIGUSR1, before)
+    assert len(ran) == 1
+    assert ran[0] < end
+    assert world.frame == 60_000
+
+
+def test_a_pipe_is_no_model(tmp_path: Path) -> None:
+    """Nobody may ever write to it."""
+    pipe = tmp_path / "robot.urdf"
+    os.mkfifo(pipe)
+    for load in (lambda: pydart2.World(0.001, str(pipe)), lambda: pydart2.World(0.001).add_skeleton(str(pipe))):
+        with pytest.raises(pydart2.LoadError, match="pipe or a device"):
+            load()
