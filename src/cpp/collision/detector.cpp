@@ -87,12 +87,16 @@ void visit_detector(Archive& archive, ConstraintSolver& solver)
   archive.number(
       [&] { return static_cast<double>(fcl->getPrimitiveShapeType()); },
       [&](double type) {
+        if (type != 0.0 && type != 1.0)
+          Archive::refuse();
         fcl->setPrimitiveShapeType(static_cast<FCLCollisionDetector::PrimitiveShape>(type));
         changed = true;
       });
   archive.number(
       [&] { return static_cast<double>(fcl->getContactPointComputationMethod()); },
       [&](double method) {
+        if (method != 0.0 && method != 1.0)
+          Archive::refuse();
         fcl->setContactPointComputationMethod(
             static_cast<FCLCollisionDetector::ContactPointComputationMethod>(method));
       });

@@ -161,6 +161,9 @@ WorldRef build(const Blueprint& blueprint)
   const auto world = Manager::instance().add(with_ode([&] { return world_from(plan[0]); }), plan[0]);
   const Busy claim(*world); // another thread's init() would clear it
   follow_plan(*world, plan);
+  if (const Eigen::Map<const Eigen::VectorXd> numbers(blueprint.numbers.data(), static_cast<long>(blueprint.numbers.size()));
+      numbers.hasNaN())
+    Archive::refuse();
   Archive model(blueprint.texts, blueprint.numbers);
   visit_model(model, *world);
   model.finish();

@@ -5,6 +5,7 @@
 #include <dart/dynamics/Marker.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
 
+#include "base/checks.hpp"
 #include "collision/detector.hpp"
 #include "contact/fast_solver.hpp"
 #include "state/model_joints.hpp"
@@ -16,12 +17,18 @@ namespace {
 
 using namespace dart::dynamics;
 
+double not_negative(double value)
+{
+  check::not_negative(value, "a number of a soft body");
+  return value;
+}
+
 void visit_soft_body(Archive& archive, SoftBodyNode& body)
 {
   archive.count(body.getNumPointMasses());
-  archive.number([&] { return body.getVertexSpringStiffness(); }, [&](double k) { body.setVertexSpringStiffness(k); });
-  archive.number([&] { return body.getEdgeSpringStiffness(); }, [&](double k) { body.setEdgeSpringStiffness(k); });
-  archive.number([&] { return body.getDampingCoefficient(); }, [&](double d) { body.setDampingCoefficient(d); });
+  archive.number([&] { return body.getVertexSpringStiffness(); }, [&](double k) { body.setVertexSpringStiffness(not_negative(k)); });
+  archive.number([&] { return body.getEdgeSpringStiffness(); }, [&](double k) { body.setEdgeSpringStiffness(not_negative(k)); });
+  archive.number([&] { return body.getDampingCoefficient(); }, [&](double d) { body.setDampingCoefficient(not_negative(d)); });
 }
 
 /// Mass, COM and the moment of inertia about the COM (xx yy zz xy xz yz).
@@ -36,6 +43,9 @@ Eigen::VectorXd inertia_of(const BodyNode& body)
 
 void set_inertia(BodyNode& body, const Eigen::VectorXd& v)
 {
+  check::finite(VectorIn{v.data(), v.size()}, "the inertia of a body");
+  for (const int i : {0, 4, 5, 6}) // mass, and the moments about the axes
+    check::not_negative(v[i], "the inertia of a body");
   body.setInertia(Inertia(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9]));
 }
 
@@ -89,9 +99,18 @@ BodyNode* visit_reference(Archive& archive, const WorldRecord& world, const Body
   return world.skeletons[skeleton]->skeleton->getBodyNode(own);
 }
 
+/// Of things that take a number each, at least.
+std::size_t bounded_count(Archive& archive, std::size_t now)
+{
+  const auto count = archive.count(now);
+  if (archive.is_in() && count > archive.numbers.size())
+    Archive::refuse();
+  return count;
+}
+
 void visit_ignored_pairs(Archive& archive, WorldRecord& world)
 {
-  world.ignored_pairs.resize(archive.count(world.ignored_pairs.size()));
+  world.ignored_pairs.resize(bounded_count(archive, world.ignored_pairs.size()));
   for (auto& [body1, body2] : world.ignored_pairs) {
     body1 = visit_reference(archive, world, body1);
     body2 = visit_reference(archive, world, body2);
@@ -110,8 +129,15 @@ void visit_settings(Archive& archive, WorldRecord& record)
   if (!archive.part("settings", changed))
     return;
   archive.number(
-      [&] { return static_cast<double>(most); }, [&](double number) { most = static_cast<std::size_t>(number); });
-  archive.number([&] { return solver.memory_limit(); }, [&](double bytes) { solver.set_memory_limit(bytes); });
+      [&] { return static_cast<double>(most); }, [&](double number) {
+        if (!(number >= 1.0 && number <= static_cast<double>(unlimited_contacts)))
+          Archive::refuse();
+        most = static_cast<std::size_t>(number);
+      });
+  archive.number([&] { return solver.memory_limit(); }, [&](double bytes) {
+    check::positive(bytes, "the contact memory limit");
+    solver.set_memory_limit(bytes);
+  });
 }
 
 void visit_manner_of_steps(Archive& archive, WorldRecord& record)
@@ -138,7 +164,7 @@ void visit_constraints(Archive& archive, WorldRecord& world)
   const bool plain = std::all_of(world.constraints.begin(), world.constraints.end(), [](const auto& record) {
     return record.kind == ConstraintRecord::Kind::ball && record.body2 != nullptr;
   });
-  const auto count = archive.count(world.constraints.size());
+  const auto count = bounded_count(archive, world.constraints.size());
   if (archive.is_in()) {
     solver.removeAllConstraints();
     world.constraints.assign(count, ConstraintRecord{});
@@ -197,8 +223,14 @@ void visit_model(Archive& archive, WorldRecord& record)
 {
   auto& world = *record.world;
   archive.same(std::to_string(record.skeletons.size()) + " skeletons");
-  archive.number([&] { return world.getTimeStep(); }, [&](double step) { world.setTimeStep(step); });
-  archive.vector([&] { return world.getGravity(); }, [&](const auto& g) { world.setGravity(Eigen::Vector3d(g)); });
+  archive.number([&] { return world.getTimeStep(); }, [&](double step) {
+    check::positive(step, "the time step");
+    world.setTimeStep(step);
+  });
+  archive.vector([&] { return world.getGravity(); }, [&](const auto& g) {
+    check::finite(VectorIn{g.data(), g.size()}, "gravity");
+    world.setGravity(Eigen::Vector3d(g));
+  });
   for (const auto& item : record.skeletons) {
     visit_skeleton(archive, *item->skeleton);
     item->limits_checked &= !archive.is_in();

@@ -6,7 +6,9 @@
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/ScrewJoint.hpp>
 #include <dart/dynamics/UniversalJoint.hpp>
-#include <limits>
+#include <cmath>
+
+#include "base/checks.hpp"
 
 namespace pydart2 {
 
@@ -16,27 +18,34 @@ namespace {
 
 using Dof = DegreeOfFreedom;
 
-constexpr double any = -std::numeric_limits<double>::infinity();
-
 constexpr struct
 {
   double (Dof::*get)() const;
   void (Dof::*set)(double);
-  double least = any;
+  void (*check)(double, const char*);
 } dof_numbers[] = {
-    {&Dof::getPositionLowerLimit, &Dof::setPositionLowerLimit},
-    {&Dof::getPositionUpperLimit, &Dof::setPositionUpperLimit},
-    {&Dof::getInitialPosition, &Dof::setInitialPosition},
-    {&Dof::getVelocityLowerLimit, &Dof::setVelocityLowerLimit},
-    {&Dof::getVelocityUpperLimit, &Dof::setVelocityUpperLimit},
-    {&Dof::getInitialVelocity, &Dof::setInitialVelocity},
-    {&Dof::getForceLowerLimit, &Dof::setForceLowerLimit},
-    {&Dof::getForceUpperLimit, &Dof::setForceUpperLimit},
-    {&Dof::getSpringStiffness, &Dof::setSpringStiffness, 0.0},
-    {&Dof::getRestPosition, &Dof::setRestPosition},
-    {&Dof::getDampingCoefficient, &Dof::setDampingCoefficient, 0.0},
-    {&Dof::getCoulombFriction, &Dof::setCoulombFriction, 0.0},
+    {&Dof::getPositionLowerLimit, &Dof::setPositionLowerLimit, check::lower_limit},
+    {&Dof::getPositionUpperLimit, &Dof::setPositionUpperLimit, check::upper_limit},
+    {&Dof::getInitialPosition, &Dof::setInitialPosition, check::finite},
+    {&Dof::getVelocityLowerLimit, &Dof::setVelocityLowerLimit, check::lower_limit},
+    {&Dof::getVelocityUpperLimit, &Dof::setVelocityUpperLimit, check::upper_limit},
+    {&Dof::getInitialVelocity, &Dof::setInitialVelocity, check::finite},
+    {&Dof::getForceLowerLimit, &Dof::setForceLowerLimit, check::lower_limit},
+    {&Dof::getForceUpperLimit, &Dof::setForceUpperLimit, check::upper_limit},
+    {&Dof::getSpringStiffness, &Dof::setSpringStiffness, check::not_negative},
+    {&Dof::getRestPosition, &Dof::setRestPosition, check::finite},
+    {&Dof::getDampingCoefficient, &Dof::setDampingCoefficient, check::not_negative},
+    {&Dof::getCoulombFriction, &Dof::setCoulombFriction, check::not_negative},
 };
+
+/// A number that stands for one of `count` things.
+template <class Enum>
+Enum one_of(double value, int count)
+{
+  if (!(value >= 0.0 && value < count) || value != std::floor(value))
+    Archive::refuse();
+  return static_cast<Enum>(static_cast<int>(value));
+}
 
 Eigen::VectorXd rows_of(const Eigen::Isometry3d& transform)
 {
@@ -48,13 +57,17 @@ Eigen::Isometry3d transform_of(const Eigen::VectorXd& rows)
 {
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   transform.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix<double, 3, 4>>(rows.data());
+  check::rigid(transform.matrix(), "the place of a joint");
   return transform;
 }
 
 template <class Get, class Set>
 void visit_axis(Archive& archive, Get get, Set set)
 {
-  archive.vector(get, [&](const Eigen::VectorXd& axis) { set(before_normalizing(axis)); });
+  archive.vector(get, [&](const Eigen::VectorXd& axis) {
+    check::direction(axis, "the axis of a joint");
+    set(before_normalizing(axis));
+  });
 }
 
 void visit_axes(Archive& archive, Joint& any)
@@ -65,16 +78,25 @@ void visit_axes(Archive& archive, Joint& any)
     visit_axis(archive, [&] { return joint->getAxis(); }, [&](const auto& axis) { joint->setAxis(axis); });
   if (auto* joint = dynamic_cast<ScrewJoint*>(&any)) {
     visit_axis(archive, [&] { return joint->getAxis(); }, [&](const auto& axis) { joint->setAxis(axis); });
-    archive.number([&] { return joint->getPitch(); }, [&](double pitch) { joint->setPitch(pitch); });
+    archive.number(
+        [&] { return joint->getPitch(); },
+        [&](double pitch) {
+          check::finite(pitch, "the pitch of a joint");
+          joint->setPitch(pitch);
+        });
   }
   if (auto* joint = dynamic_cast<UniversalJoint*>(&any)) { // its setters do not normalize
-    archive.vector([&] { return joint->getAxis1(); }, [&](const auto& axis) { joint->setAxis1(Eigen::Vector3d(axis)); });
-    archive.vector([&] { return joint->getAxis2(); }, [&](const auto& axis) { joint->setAxis2(Eigen::Vector3d(axis)); });
+    const auto checked = [](const Eigen::Vector3d& axis) {
+      check::direction(axis, "the axis of a joint");
+      return axis;
+    };
+    archive.vector([&] { return joint->getAxis1(); }, [&](const auto& axis) { joint->setAxis1(checked(axis)); });
+    archive.vector([&] { return joint->getAxis2(); }, [&](const auto& axis) { joint->setAxis2(checked(axis)); });
   }
   if (auto* joint = dynamic_cast<EulerJoint*>(&any))
     archive.number(
         [&] { return static_cast<double>(joint->getAxisOrder()); },
-        [&](double order) { joint->setAxisOrder(static_cast<EulerJoint::AxisOrder>(order), false); });
+        [&](double order) { joint->setAxisOrder(one_of<EulerJoint::AxisOrder>(order, 2), false); });
 }
 
 void visit_mimic(Archive& archive, Skeleton& skeleton, Joint& joint)
@@ -85,6 +107,11 @@ void visit_mimic(Archive& archive, Skeleton& skeleton, Joint& joint)
   archive.number([&] { return multiplier; }, [&](double value) { multiplier = value; });
   archive.number([&] { return offset; }, [&](double value) { offset = value; });
   if (index > skeleton.getNumJoints())
+    Archive::refuse();
+  check::finite(multiplier, "a mimic multiplier");
+  check::finite(offset, "a mimic offset");
+  const Joint* const saved = index == 0 ? nullptr : skeleton.getJoint(index - 1);
+  if (saved == &joint || (saved != nullptr && saved->getNumDofs() != joint.getNumDofs()))
     Archive::refuse();
   if (archive.is_in())
     joint.setMimicJoint(index == 0 ? nullptr : skeleton.getJoint(index - 1), multiplier, offset);
@@ -103,7 +130,12 @@ void visit_joint(Archive& archive, Skeleton& skeleton, Joint& joint)
   visit_mimic(archive, skeleton, joint);
   archive.number(
       [&] { return static_cast<double>(joint.getActuatorType()); },
-      [&](double type) { joint.setActuatorType(static_cast<Joint::ActuatorType>(type)); });
+      [&](double type) {
+        const auto actuator = one_of<Joint::ActuatorType>(type, Joint::LOCKED + 1);
+        if (actuator == Joint::MIMIC && joint.getMimicJoint() == nullptr)
+          Archive::refuse();
+        joint.setActuatorType(actuator);
+      });
   archive.number(
       [&] { return double(joint.areLimitsEnforced()); }, [&](double on) { joint.setLimitEnforcement(on != 0.0); });
   for (std::size_t i = 0; i < joint.getNumDofs(); ++i) {
@@ -112,8 +144,7 @@ void visit_joint(Archive& archive, Skeleton& skeleton, Joint& joint)
       archive.number(
           [&] { return (dof.*number.get)(); },
           [&](double value) {
-            if (!(value >= number.least)) // the engine's assertion would end the process
-              Archive::refuse();
+            number.check(value, "a number of a dof");
             (dof.*number.set)(value);
           });
     archive.number([&] { return double(dof.isNamePreserved()); }, [&](double on) { dof.preserveName(on != 0.0); });

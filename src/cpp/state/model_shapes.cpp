@@ -10,6 +10,7 @@
 #include <dart/dynamics/PyramidShape.hpp>
 #include <dart/dynamics/SphereShape.hpp>
 
+#include "base/checks.hpp"
 #include "state/model_joints.hpp"
 
 namespace pydart2 {
@@ -20,16 +21,47 @@ namespace {
 
 using Vector = const Eigen::VectorXd&;
 
+double finite(double value)
+{
+  check::finite(value, "a number of a shape");
+  return value;
+}
+
+Vector finite(Vector values)
+{
+  check::finite(VectorIn{values.data(), values.size()}, "numbers of a shape");
+  return values;
+}
+
+double not_negative(double value)
+{
+  check::not_negative(value, "a coefficient of a shape");
+  return value;
+}
+
+double length(double value)
+{
+  check::not_negative(value, "a length of a shape");
+  return value;
+}
+
+Eigen::Vector3d lengths(Vector values)
+{
+  for (const double value : values)
+    length(value);
+  return values;
+}
+
 template <class Round>
 void visit_radius(Archive& archive, Round& shape)
 {
-  archive.number([&] { return shape.getRadius(); }, [&](double radius) { shape.setRadius(radius); });
+  archive.number([&] { return shape.getRadius(); }, [&](double radius) { shape.setRadius(length(radius)); });
 }
 
 template <class Tall>
 void visit_height(Archive& archive, Tall& shape)
 {
-  archive.number([&] { return shape.getHeight(); }, [&](double height) { shape.setHeight(height); });
+  archive.number([&] { return shape.getHeight(); }, [&](double height) { shape.setHeight(length(height)); });
 }
 
 template <class Long>
@@ -42,15 +74,19 @@ void visit_long(Archive& archive, Long& shape)
 void visit_pyramid(Archive& archive, PyramidShape& shape)
 {
   visit_height(archive, shape);
-  archive.number([&] { return shape.getBaseWidth(); }, [&](double width) { shape.setBaseWidth(width); });
-  archive.number([&] { return shape.getBaseDepth(); }, [&](double depth) { shape.setBaseDepth(depth); });
+  archive.number([&] { return shape.getBaseWidth(); }, [&](double width) { shape.setBaseWidth(length(width)); });
+  archive.number([&] { return shape.getBaseDepth(); }, [&](double depth) { shape.setBaseDepth(length(depth)); });
 }
 
 void visit_plane(Archive& archive, PlaneShape& shape)
 {
   archive.vector(
-      [&] { return shape.getNormal(); }, [&](Vector normal) { shape.setNormal(before_normalizing(normal)); });
-  archive.number([&] { return shape.getOffset(); }, [&](double offset) { shape.setOffset(offset); });
+      [&] { return shape.getNormal(); },
+      [&](Vector normal) {
+        check::direction(normal, "the normal of a plane");
+        shape.setNormal(before_normalizing(normal));
+      });
+  archive.number([&] { return shape.getOffset(); }, [&](double offset) { shape.setOffset(finite(offset)); });
 }
 
 void visit_spheres(Archive& archive, MultiSphereConvexHullShape& shape)
@@ -58,13 +94,15 @@ void visit_spheres(Archive& archive, MultiSphereConvexHullShape& shape)
   auto spheres = shape.getSpheres();
   bool changed = false;
   const auto count = archive.count(spheres.size());
+  if (archive.is_in() && count > archive.numbers.size())
+    Archive::refuse();
   if (count != spheres.size()) {
     spheres.resize(count, {0.0, Eigen::Vector3d::Zero()});
     changed = true;
   }
   for (auto& [radius, position] : spheres) {
-    archive.number([&, &r = radius] { return r; }, [&, &r = radius](double value) { r = value, changed = true; });
-    archive.vector([&, &p = position] { return p; }, [&, &p = position](Vector value) { p = value, changed = true; });
+    archive.number([&, &r = radius] { return r; }, [&, &r = radius](double value) { r = length(value), changed = true; });
+    archive.vector([&, &p = position] { return p; }, [&, &p = position](Vector value) { p = finite(value), changed = true; });
   }
   if (!changed)
     return;
@@ -76,10 +114,10 @@ void visit_geometry(Archive& archive, Shape& any)
 {
   archive.same(any.getType());
   if (auto* box = dynamic_cast<BoxShape*>(&any))
-    archive.vector([&] { return box->getSize(); }, [&](Vector size) { box->setSize(Eigen::Vector3d(size)); });
+    archive.vector([&] { return box->getSize(); }, [&](Vector size) { box->setSize(lengths(size)); });
   if (auto* ellipsoid = dynamic_cast<EllipsoidShape*>(&any))
     archive.vector(
-        [&] { return ellipsoid->getDiameters(); }, [&](Vector d) { ellipsoid->setDiameters(Eigen::Vector3d(d)); });
+        [&] { return ellipsoid->getDiameters(); }, [&](Vector d) { ellipsoid->setDiameters(lengths(d)); });
   if (auto* sphere = dynamic_cast<SphereShape*>(&any))
     visit_radius(archive, *sphere);
   if (auto* cylinder = dynamic_cast<CylinderShape*>(&any))
@@ -99,10 +137,10 @@ void visit_geometry(Archive& archive, Shape& any)
 void visit_contact(Archive& archive, DynamicsAspect& aspect)
 {
   archive.number(
-      [&] { return aspect.getPrimaryFrictionCoeff(); }, [&](double value) { aspect.setPrimaryFrictionCoeff(value); });
+      [&] { return aspect.getPrimaryFrictionCoeff(); }, [&](double value) { aspect.setPrimaryFrictionCoeff(not_negative(value)); });
   archive.number(
-      [&] { return aspect.getSecondaryFrictionCoeff(); }, [&](double value) { aspect.setSecondaryFrictionCoeff(value); });
-  archive.number([&] { return aspect.getRestitutionCoeff(); }, [&](double value) { aspect.setRestitutionCoeff(value); });
+      [&] { return aspect.getSecondaryFrictionCoeff(); }, [&](double value) { aspect.setSecondaryFrictionCoeff(not_negative(value)); });
+  archive.number([&] { return aspect.getRestitutionCoeff(); }, [&](double value) { aspect.setRestitutionCoeff(not_negative(value)); });
 }
 
 } // namespace
@@ -118,10 +156,11 @@ void visit_shape(Archive& archive, ShapeNode& node)
       [&](Vector numbers) {
         Eigen::Isometry3d transform;
         transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(numbers.data());
+        check::rigid(transform.matrix(), "the place of a shape");
         node.setRelativeTransform(transform);
       });
   if (auto* look = node.getVisualAspect()) {
-    archive.vector([&] { return look->getRGBA(); }, [&](Vector rgba) { look->setRGBA(Eigen::Vector4d(rgba)); });
+    archive.vector([&] { return look->getRGBA(); }, [&](Vector rgba) { look->setRGBA(Eigen::Vector4d(finite(rgba))); });
     archive.number([&] { return double(look->isHidden()); }, [&](double on) { look->setHidden(on != 0.0); });
   }
   if (auto* contact = node.getDynamicsAspect())

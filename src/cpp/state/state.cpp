@@ -75,7 +75,11 @@ void visit_motors(Archive& archive, SkeletonRecord& item)
     archive.vector([&] { return *values; }, [&](Vector value) { *values = value; });
   archive.number(
       [&] { return static_cast<double>(targets.compensation); },
-      [&](double value) { targets.compensation = static_cast<Targets::Compensation>(value); });
+      [&](double value) {
+        if (value != 0.0 && value != 1.0 && value != 2.0)
+          Archive::refuse();
+        targets.compensation = static_cast<Targets::Compensation>(value);
+      });
   if (archive.is_in() && targets.any())
     motors.set(targets);
   else if (archive.is_in())
@@ -87,7 +91,11 @@ void visit(Archive& archive, WorldRecord& record)
   auto& world = *record.world;
   archive.number([&] { return world.getTime(); }, [&](double time) { world.setTime(time); });
   archive.number(
-      [&] { return static_cast<double>(record.frame); }, [&](double frame) { record.frame = static_cast<long>(frame); });
+      [&] { return static_cast<double>(record.frame); }, [&](double frame) {
+        if (!(frame >= 0.0 && frame <= 9e15))
+          Archive::refuse();
+        record.frame = static_cast<long>(frame);
+      });
   for (const auto& item : record.skeletons) {
     auto& skeleton = *item->skeleton;
     visit_dofs(archive, skeleton);
