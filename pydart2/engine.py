@@ -21,16 +21,19 @@ class EngineInfo(NamedTuple):
         Folder that it is installed under, as ``"/usr"``.
     solver
         Constraint solver of new worlds, "fast", "dart" or "iterative" (`World.set_constraint_solver`).
+    dynamics
+        Dynamics of new worlds, "engine" or "fast" (`World.set_dynamics`).
     """
 
     dart: str
     assertions: bool
     prefix: str
     solver: str
+    dynamics: str
 
 
 def engine_info() -> EngineInfo:
-    """Describe the engine; ValueError if the environment variable ``PYDART2_SOLVER`` names no solver.
+    """Describe the engine; ValueError if ``PYDART2_SOLVER`` names no solver or ``PYDART2_DYNAMICS`` no dynamics.
 
     >>> pydart2.engine_info().dart
     '6.12.1'
@@ -40,4 +43,5 @@ def engine_info() -> EngineInfo:
         _native.engine_has_assertions(),
         _native.engine_prefix(),
         _native.default_solver_name(),
+        _native.default_dynamics_name(),
     )

@@ -32,6 +32,7 @@ def run(args: argparse.Namespace) -> Report:
         "system": f"{platform.system()} {platform.machine()}, {os.cpu_count()} processors",
         "dart": f"{engine.dart} in {engine.prefix}, {'with' if engine.assertions else 'without'} assertions",
         "solver": engine.solver,
+        "dynamics": engine.dynamics,
         "opengl": _opengl(),
         **{package: _version(package) for package in _PACKAGES},
     }

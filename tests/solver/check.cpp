@@ -1,17 +1,19 @@
-// Steps scenes as the engine does and as this package does, with its fast constraint solver and its collision detectors,
-// and compares them bit by bit.
+// Steps scenes as the engine does and as this package does, with its fast constraint solver, its collision detectors and
+// its dynamics, and compares them bit by bit.
 //
 //   check STEPS MODEL DETECTOR VARIATION [DETECTOR VARIATION ...]
 //
-// prints for each scene one line "DETECTOR VARIATION RESULT steps=N contacts=N rows=N difference=X", where RESULT is
-//   equal     states, contacts and contact forces had the same bits in all steps, and so had the constraint matrices;
+// prints for each scene one line "DETECTOR VARIATION RESULT steps=N contacts=N rows=N difference=X skeletons=N", where RESULT is
+//   equal     states, contacts and contact forces had the same bits in all steps, in each third one the poses, velocities,
+//             accelerations and forces of all bodies, shapes and Jacobians too, and so had the constraint matrices;
 //   different they had not: N is the step;
 //   varies    two worlds with the engine's own solver came to differ in step N, as happens with FCL; until then all was
 //             equal;
 //   refused   the engine cannot load the model or make its world;
 //   engine    the engine's own solver ended the process in step N; until then all was equal;
 //   ours      ours did.
-// `difference` is the largest difference of an element of a constraint matrix, `rows` the size of the largest matrix.
+// `difference` is the largest difference of an element of a constraint matrix, `rows` the size of the largest matrix,
+// `skeletons` how many steps of skeletons were ours.
 // Each scene runs in a process of its own, because the engine ends the process where an assertion of its fails.
 
 #include <sys/mman.h>
@@ -28,6 +30,7 @@
 #include "collision/detector.hpp"
 #include "contact/constraint_matrix.hpp"
 #include "contact/fast_solver.hpp"
+#include "dynamics/tree_dynamics.hpp"
 #include "scenes.hpp"
 
 using dart::constraint::ConstrainedGroup;
@@ -43,6 +46,7 @@ struct Report
   int steps = 0;
   long contacts = 0;
   int rows = 0;
+  long skeletons = 0;
   double difference = 0.0;
 };
 
@@ -134,22 +138,110 @@ private:
   ConstraintMatrix matrix_;
 };
 
-/// Joint positions, velocities and forces; contact points, normals and forces.
-std::vector<double> outcome(const World& world)
+/// A world that steps as the package does, with its own dynamics where they cover a skeleton.
+class Stepper
+{
+public:
+  explicit Stepper(World& world) : world_(world)
+  {
+    for (std::size_t i = 0; i < world.getNumSkeletons(); ++i)
+      dynamics_.push_back(pydart2::TreeDynamics::of(*world.getSkeleton(i)));
+  }
+
+  void step()
+  {
+    const double dt = world_.getTimeStep();
+    std::vector<pydart2::TreeDynamics*> ours;
+    for (std::size_t i = 0; i < dynamics_.size(); ++i) {
+      auto& skeleton = *world_.getSkeleton(i);
+      const bool taken = dynamics_[i] != nullptr && skeleton.isMobile() && !dynamics_[i]->is_for_engine();
+      ours.push_back(taken ? dynamics_[i].get() : nullptr);
+      if (taken) {
+        ++skeletons;
+        ours[i]->accelerate();
+        ours[i]->integrate_velocities(dt);
+      } else if (skeleton.isMobile()) {
+        skeleton.computeForwardDynamics();
+        skeleton.integrateVelocities(dt);
+      }
+    }
+    world_.getConstraintSolver()->solve();
+    for (std::size_t i = 0; i < dynamics_.size(); ++i)
+      if (world_.getSkeleton(i)->isMobile())
+        finish(*world_.getSkeleton(i), ours[i], dt);
+    world_.setTime(world_.getTime() + dt);
+  }
+
+  long skeletons = 0; ///< Steps of a skeleton that were ours.
+
+private:
+  static void finish(dart::dynamics::Skeleton& skeleton, pydart2::TreeDynamics* ours, double dt)
+  {
+    if (skeleton.isImpulseApplied()) {
+      if (ours != nullptr)
+        ours->apply_impulses();
+      else
+        skeleton.computeImpulseForwardDynamics();
+      skeleton.setImpulseApplied(false);
+    }
+    if (ours != nullptr)
+      ours->integrate_positions(dt);
+    else
+      skeleton.integratePositions(dt);
+    skeleton.clearInternalForces();
+    skeleton.clearExternalForces();
+    skeleton.resetCommands();
+  }
+
+  World& world_;
+  std::vector<std::unique_ptr<pydart2::TreeDynamics>> dynamics_;
+};
+
+template <class Numbers>
+void add(std::vector<double>& to, const Numbers& numbers)
+{
+  to.insert(to.end(), numbers.data(), numbers.data() + numbers.size());
+}
+
+/// What the engine knows of a body beside the state, which it brings up to date where it is asked.
+void add_body(std::vector<double>& to, const dart::dynamics::BodyNode& body)
+{
+  add(to, body.getWorldTransform().matrix());
+  add(to, body.getSpatialVelocity());
+  add(to, body.getSpatialAcceleration());
+  add(to, body.getBodyForce());
+  add(to, body.getJacobian());
+  add(to, body.getJacobianSpatialDeriv());
+  add(to, body.getParentJoint()->getBodyConstraintWrench());
+  for (const auto* shape : body.getShapeNodes()) {
+    add(to, shape->getWorldTransform().matrix());
+    add(to, shape->getSpatialVelocity());
+    add(to, shape->getSpatialAcceleration());
+  }
+}
+
+/// Joint positions, velocities and forces; contact points, normals and forces; all of the bodies.
+std::vector<double> outcome(const World& world, bool with_bodies)
 {
   std::vector<double> numbers;
-  const auto add = [&](const Eigen::VectorXd& v) { numbers.insert(numbers.end(), v.data(), v.data() + v.size()); };
   for (std::size_t i = 0; i < world.getNumSkeletons(); ++i) {
     const auto skeleton = world.getSkeleton(i);
-    add(skeleton->getPositions());
-    add(skeleton->getVelocities());
-    add(skeleton->getAccelerations());
-    add(skeleton->getForces());
+    add(numbers, skeleton->getPositions());
+    add(numbers, skeleton->getVelocities());
+    add(numbers, skeleton->getAccelerations());
+    add(numbers, skeleton->getForces());
+    if (!with_bodies)
+      continue;
+    for (const auto* body : skeleton->getBodyNodes())
+      add_body(numbers, *body);
+    add(numbers, skeleton->getMassMatrix());
+    add(numbers, skeleton->getCoriolisAndGravityForces());
+    add(numbers, skeleton->getInvAugMassMatrix());
   }
   for (const auto& contact : world.getLastCollisionResult().getContacts()) {
-    add(contact.point);
-    add(contact.normal);
-    add(contact.force);
+    add(numbers, contact.point);
+    add(numbers, contact.normal);
+    add(numbers, contact.force);
   }
   return numbers;
 }
@@ -181,23 +273,27 @@ void run(int steps, const std::string& model, const std::string& detector, const
       pydart2::replace_detector(*world->getConstraintSolver());
   pydart2::install_solver(*ours, pydart2::Solver::fast);
   compared->setConstraintSolver(std::make_unique<ComparingSolver>(report));
+  Stepper stepper(*ours);
   for (report.steps = 0; report.steps < steps; ++report.steps) {
     for (const auto& world : {theirs, twin, ours, compared})
       command(*world, report.steps);
     std::strcpy(report.result, "engine");
     theirs->step();
     twin->step();
-    const auto expected = outcome(*theirs);
-    if (!same_bits(expected, outcome(*twin))) {
+    const bool with_bodies = report.steps % 3 == 1; // what was asked for is not out of date in the next step
+    const auto expected = outcome(*theirs, with_bodies);
+    if (!same_bits(expected, outcome(*twin, with_bodies))) {
       std::strcpy(report.result, "varies");
       return;
     }
     std::strcpy(report.result, "ours");
-    ours->step();
+    stepper.step();
     compared->step();
     std::strcpy(report.result, "different");
-    if (!same_bits(expected, outcome(*ours)) || !same_bits(expected, outcome(*compared)) || report.difference != 0.0)
+    if (!same_bits(expected, outcome(*ours, with_bodies)) || !same_bits(expected, outcome(*compared, with_bodies))
+        || report.difference != 0.0)
       return;
+    report.skeletons = stepper.skeletons;
     report.contacts += static_cast<long>(ours->getLastCollisionResult().getNumContacts());
   }
   std::strcpy(report.result, "equal");
@@ -232,6 +328,6 @@ int main(int count, char** arguments)
     waitpid(child, &status, 0);
     std::cout << arguments[i] << ' ' << arguments[i + 1] << ' ' << report->result << " steps=" << report->steps
               << " contacts=" << report->contacts << " rows=" << report->rows << " difference=" << report->difference
-              << std::endl;
+              << " skeletons=" << report->skeletons << std::endl;
   }
 }

@@ -27,6 +27,7 @@ class Scene(NamedTuple):
     contacts: int
     rows: int
     difference: float
+    skeletons: int
 
 
 def models(*suffixes: str) -> list[Path]:
@@ -57,8 +58,8 @@ def compare_lcp(count: int) -> dict[str, int]:
 
 def _read(line: str) -> Scene:
     detector, variation, result, *numbers = line.split()
-    steps, contacts, rows, difference = (number.partition("=")[2] for number in numbers)
-    return Scene(detector, variation, result, int(steps), int(contacts), int(rows), float(difference))
+    steps, contacts, rows, difference, skeletons = (number.partition("=")[2] for number in numbers)
+    return Scene(detector, variation, result, int(steps), int(contacts), int(rows), float(difference), int(skeletons))
 
 
 def _build() -> Path:

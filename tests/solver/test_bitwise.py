@@ -1,6 +1,6 @@
 """The fast constraint solver gives the bits of the engine's own: states, contact forces, constraint matrices.
 
-So do the package's collision detectors, with which it steps here; the engine steps with its own.
+So do the package's collision detectors and its fast dynamics, with which it steps here; the engine steps with its own.
 
 In all models that the engine loads, with its four collision detectors, as the models are and with joints, contacts and
 constraints of all kinds (scenes.hpp).  `make test-solver` runs the long form.
@@ -51,6 +51,7 @@ def test_every_model() -> None:
     assert min(pairs_seen.values()) >= 10
     assert sum(scene.contacts for scene in equal) > 5_000
     assert max(scene.rows for scene in equal) > 100
+    assert sum(scene.skeletons > 0 for scene in equal) > 0.95 * len(equal)
 
 
 def test_bodies_at_rest_on_each_other() -> None:

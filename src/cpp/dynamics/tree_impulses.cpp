@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <dart/dynamics/Joint.hpp>
 
+#include "dynamics/spatial_inline.hpp"
 #include "engine/engine_access.hpp"
 
 namespace pydart2 {
@@ -12,25 +13,8 @@ namespace {
 using Vector6 = TreeImpulses::Vector6;
 using dart::dynamics::BodyNode;
 using dart::dynamics::GenericJoint;
-
-/// A wrench, from the frame at T to the frame that T is relative to: dart::math::dAdInvT, inline.
-[[gnu::always_inline]] inline Vector6 to_parent(const Eigen::Isometry3d& T, const Vector6& wrench)
-{
-  Vector6 result;
-  result.tail<3>().noalias() = T.linear() * wrench.tail<3>();
-  result.head<3>().noalias() = T.linear() * wrench.head<3>();
-  result.head<3>() += T.translation().cross(result.tail<3>());
-  return result;
-}
-
-/// A twist, from the frame that T is relative to into the frame at T: dart::math::AdInvT, inline.
-[[gnu::always_inline]] inline Vector6 to_child(const Eigen::Isometry3d& T, const Vector6& twist)
-{
-  Vector6 result;
-  result.head<3>().noalias() = T.linear().transpose() * twist.head<3>();
-  result.tail<3>().noalias() = T.linear().transpose() * (twist.tail<3>() + twist.head<3>().cross(T.translation()));
-  return result;
-}
+using spatial::to_child;
+using spatial::to_parent;
 
 } // namespace
 

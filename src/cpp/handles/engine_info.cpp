@@ -3,6 +3,7 @@
 #include <dart/config.hpp>
 
 #include "contact/fast_solver.hpp"
+#include "dynamics/dynamics_choice.hpp"
 #include "engine/library.hpp"
 
 namespace pydart2 {
@@ -25,6 +26,11 @@ std::string engine_prefix()
 std::string default_solver_name()
 {
   return name_of(default_solver());
+}
+
+std::string default_dynamics_name()
+{
+  return name_of(default_dynamics());
 }
 
 } // namespace pydart2

@@ -16,4 +16,7 @@ std::string engine_prefix();
 /// The constraint solver of new worlds (fast_solver.hpp).
 std::string default_solver_name();
 
+/// The dynamics of new worlds (dynamics_choice.hpp).
+std::string default_dynamics_name();
+
 } // namespace pydart2

@@ -251,6 +251,16 @@ void WorldHandle::set_collision_detector(const std::string& name)
   use_detector(*world().world->getConstraintSolver(), make_detector(name));
 }
 
+std::string WorldHandle::dynamics() const
+{
+  return name_of(world().dynamics);
+}
+
+void WorldHandle::set_dynamics(const std::string& name)
+{
+  world().dynamics = dynamics_named(name);
+}
+
 std::string WorldHandle::constraint_solver() const
 {
   return name_of(fast_solver(*world().world).solver());

@@ -64,6 +64,10 @@ public:
   std::string collision_detector() const;
   void set_collision_detector(const std::string& name);
 
+  /// "engine" or "fast".
+  std::string dynamics() const;
+  void set_dynamics(const std::string& name);
+
   /// "fast", "dart" or "iterative".
   std::string constraint_solver() const;
   void set_constraint_solver(const std::string& name);

@@ -252,6 +252,8 @@ void visit_model(Archive& archive, WorldRecord& record)
   visit_armature(archive, record);
   visit_settings(archive, record);
   visit_manner_of_steps(archive, record);
+  const bool fast = archive.part("fast dynamics", record.dynamics == Dynamics::fast);
+  record.dynamics = fast ? Dynamics::fast : Dynamics::engine;
 }
 
 } // namespace pydart2

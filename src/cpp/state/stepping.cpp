@@ -17,6 +17,7 @@
 #include "collision/detector.hpp"
 #include "collision/native_detector.hpp"
 #include "contact/fast_solver.hpp"
+#include "dynamics/tree_dynamics.hpp"
 #include "dynamics/weightless.hpp"
 #include "state/dof_state.hpp"
 #include "state/limits.hpp"
@@ -279,6 +280,31 @@ void pass(WorldRecord& record)
   ++record.frame;
 }
 
+/// What moves a skeleton in this step.
+TreeDynamics* choose_mover(const WorldRecord& record, SkeletonRecord& item)
+{
+  auto* ours = record.dynamics == Dynamics::fast ? item.dynamics() : nullptr;
+  return ours != nullptr && ours->is_for_engine() ? nullptr : ours;
+}
+
+void accelerate(SkeletonRecord& item, double dt)
+{
+  const WithArmature with_armature(item.armature, dt);
+  if (item.mover != nullptr)
+    item.mover->accelerate();
+  else
+    item.skeleton->computeForwardDynamics();
+}
+
+void apply_impulses(SkeletonRecord& item)
+{
+  if (item.mover != nullptr)
+    item.mover->apply_impulses();
+  else
+    item.skeleton->computeImpulseForwardDynamics();
+  item.skeleton->setImpulseApplied(false);
+}
+
 /// World::step() up to the time, in the same order. Checks come before what would fail an assertion of the engine.
 void phases(WorldRecord& record)
 {
@@ -289,11 +315,12 @@ void phases(WorldRecord& record)
     if (!skeleton.isMobile())
       continue;
     item->motors.act(skeleton, item->armature, dt);
-    {
-      const WithArmature with_armature(item->armature, dt);
-      skeleton.computeForwardDynamics();
-    }
-    skeleton.integrateVelocities(dt);
+    item->mover = choose_mover(record, *item);
+    accelerate(*item, dt);
+    if (item->mover != nullptr)
+      item->mover->integrate_velocities(dt);
+    else
+      skeleton.integrateVelocities(dt);
     item->watch->check_velocities(end);
   }
   solve_constraints(record, end);
@@ -302,8 +329,7 @@ void phases(WorldRecord& record)
     if (!skeleton.isMobile())
       continue;
     if (skeleton.isImpulseApplied()) {
-      skeleton.computeImpulseForwardDynamics();
-      skeleton.setImpulseApplied(false);
+      apply_impulses(*item);
       item->watch->check_velocities(end);
     }
   }
@@ -313,7 +339,10 @@ void phases(WorldRecord& record)
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
       continue;
-    skeleton.integratePositions(dt);
+    if (item->mover != nullptr)
+      item->mover->integrate_positions(dt);
+    else
+      skeleton.integratePositions(dt);
     item->watch->check_positions(end);
   }
   corrections.take_off_corrections();

@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "collision/detector.hpp"
 #include "contact/fast_solver.hpp"
+#include "dynamics/tree_dynamics.hpp"
 
 namespace pydart2 {
 
@@ -39,6 +40,15 @@ void WorldRecord::become_numbers()
   for (const auto& item : skeletons)
     item->not_numbers.reset();
   blown_up = false;
+}
+
+TreeDynamics* SkeletonRecord::dynamics()
+{
+  if (dynamics_structure != structure) {
+    made_dynamics = TreeDynamics::of(*skeleton);
+    dynamics_structure = structure;
+  }
+  return made_dynamics.get();
 }
 
 WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string source)

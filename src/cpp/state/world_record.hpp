@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dynamics/armature.hpp"
+#include "dynamics/dynamics_choice.hpp"
 #include "dynamics/stable_pd.hpp"
 #include "state/constraint_record.hpp"
 #include "state/dof_state.hpp"
@@ -19,6 +20,7 @@
 namespace pydart2 {
 
 class StateWatch; // stepping.cpp
+class TreeDynamics;
 
 enum class RootChange { trans_and_euler, weld };
 
@@ -51,6 +53,13 @@ struct SkeletonRecord
 
   /// After a blow-up that is not raised: what is read instead, until a state is set. The engine has the last sane one.
   std::optional<DofState> not_numbers;
+
+  /// Moves it as the engine does, but faster; null where the engine has to. Made again when the tree has changed.
+  TreeDynamics* dynamics();
+
+  std::shared_ptr<TreeDynamics> made_dynamics = nullptr;
+  int dynamics_structure = -1;
+  TreeDynamics* mover = nullptr; ///< What moves it in the present step, null for the engine.
 };
 using SkeletonRef = std::shared_ptr<SkeletonRecord>;
 
@@ -106,6 +115,7 @@ struct WorldRecord
   long frame = 0; ///< Steps since the last reset.
   int layout = 0; ///< Changes when skeletons are removed or get another tree, so that an earlier frame no longer fits.
   bool shapes_changed = false; ///< Since the detector got them, which then has them in another order than a clone's.
+  Dynamics dynamics = default_dynamics();
   bool told_of_contact_limit = false; ///< The warning came.
   bool deterministic = false; ///< Each step begins without what detectors and constraints remember.
   bool nan_at_blow_up = false; ///< Instead of an error.

@@ -1,0 +1,629 @@
+#include "dynamics/tree_dynamics.hpp"
+
+#include <dart/dynamics/BallJoint.hpp>
+#include <dart/dynamics/EulerJoint.hpp>
+#include <dart/dynamics/FreeJoint.hpp>
+#include <dart/dynamics/PlanarJoint.hpp>
+#include <dart/dynamics/PrismaticJoint.hpp>
+#include <dart/dynamics/RevoluteJoint.hpp>
+#include <dart/dynamics/ScrewJoint.hpp>
+#include <dart/dynamics/TranslationalJoint.hpp>
+#include <dart/dynamics/TranslationalJoint2D.hpp>
+#include <dart/dynamics/UniversalJoint.hpp>
+#include <dart/dynamics/WeldJoint.hpp>
+#include <typeinfo>
+
+#include "dynamics/spatial_inline.hpp"
+#include "engine/tree_members.hpp"
+
+namespace pydart2 {
+
+namespace {
+
+using namespace dart::dynamics;
+using Body = engine::BodyMembers;
+using FrameOf = engine::FrameMembers;
+using EntityOf = engine::EntityMembers;
+using JointOf = engine::JointMembers;
+template <class Space>
+using Generic = engine::GenericJointMembers<Space>;
+
+using Vector6 = TreeDynamics::Vector6;
+using Matrix6 = TreeDynamics::Matrix6;
+
+template <class Space>
+const auto& properties(const GenericJoint<Space>& joint)
+{
+  return joint.GenericJoint<Space>::Base::getAspectProperties();
+}
+
+template <class Space>
+auto& state(GenericJoint<Space>& joint)
+{
+  return joint.*Generic<Space>::state;
+}
+
+/// The Jacobian of a joint, brought up to date by the engine if it changes with the positions.
+template <class Space>
+const auto& jacobian(const GenericJoint<Space>& joint, bool constant)
+{
+  if (!constant && joint.*JointOf::jacobian_dirty)
+    joint.getRelativeJacobianStatic();
+  return joint.*Generic<Space>::jacobian;
+}
+
+template <class Space>
+const auto& jacobian_rate(const GenericJoint<Space>& joint, bool constant)
+{
+  if (!constant && joint.*JointOf::jacobian_rate_dirty)
+    joint.getRelativeJacobianTimeDerivStatic();
+  return joint.*Generic<Space>::jacobian_rate;
+}
+
+/// As the engine sets a state: what is equal stays, its zeros with their signs. Whether it has changed.
+template <class Vector>
+bool assign(Vector& place, const Vector& value)
+{
+  if (place == value)
+    return false;
+  place = value;
+  return true;
+}
+
+/// Whether nobody is to be told when an entity is out of date.
+bool is_unheard(const Entity& entity)
+{
+  return (entity.*EntityOf::transform_signal).getNumConnections() == 0
+         && (entity.*EntityOf::velocity_signal).getNumConnections() == 0
+         && (entity.*EntityOf::acceleration_signal).getNumConnections() == 0;
+}
+
+template <class Joint>
+struct SpaceOfJoint;
+template <class Space>
+struct SpaceOfJoint<GenericJoint<Space>&>
+{
+  using type = Space;
+};
+/// The configuration space of a GenericJoint.
+template <class Joint>
+using SpaceOf = typename SpaceOfJoint<Joint>::type;
+
+} // namespace
+
+std::unique_ptr<TreeDynamics> TreeDynamics::of(Skeleton& skeleton)
+{
+  if (skeleton.getNumSoftBodyNodes() > 0)
+    return nullptr;
+  std::unique_ptr<TreeDynamics> made(new TreeDynamics(skeleton));
+  for (std::size_t tree = 0; tree < skeleton.getNumTrees(); ++tree)
+    if (!made->add(*skeleton.getRootBodyNode(tree), nullptr))
+      return nullptr;
+  return made;
+}
+
+TreeDynamics::TreeDynamics(Skeleton& skeleton) : skeleton_(skeleton) {}
+
+bool TreeDynamics::add(BodyNode& body, Link* parent)
+{
+  Joint& joint = *body.getParentJoint();
+  auto made = std::make_unique<Link>();
+  Link& link = *made;
+  link.body = &body;
+  link.joint = &joint;
+  link.frame = &body;
+  link.entity = &body;
+  link.parent_frame = body.getParentFrame();
+  link.parent = parent;
+  link.tree = body.getTreeIndex();
+  link.inertia = &body.getSpatialInertia();
+  link.external_force = &body.getExternalForceLocal();
+
+  const auto& type = typeid(joint);
+  if (type == typeid(RevoluteJoint))
+    link.axis = &static_cast<RevoluteJoint&>(joint).getAxis();
+  if (type == typeid(RevoluteJoint) || type == typeid(PrismaticJoint) || type == typeid(ScrewJoint))
+    link.kind = Kind::r1;
+  else if (type == typeid(UniversalJoint) || type == typeid(TranslationalJoint2D))
+    link.kind = Kind::r2;
+  else if (type == typeid(EulerJoint) || type == typeid(PlanarJoint) || type == typeid(TranslationalJoint))
+    link.kind = Kind::r3;
+  else if (type == typeid(BallJoint))
+    link.kind = Kind::so3;
+  else if (type == typeid(FreeJoint))
+    link.kind = Kind::se3;
+  else if (type != typeid(WeldJoint))
+    return false;
+  if (typeid(body) != typeid(BodyNode))
+    return false;
+  link.constant = type != typeid(UniversalJoint) && type != typeid(EulerJoint) && type != typeid(PlanarJoint);
+  link.plain_integration = link.kind != Kind::so3 && link.kind != Kind::se3;
+
+  links_.push_back(std::move(made));
+  if (parent != nullptr)
+    parent->children.push_back(&link);
+  for (std::size_t i = 0; i < body.getNumChildBodyNodes(); ++i)
+    if (!add(*body.getChildBodyNode(i), &link))
+      return false;
+  return true;
+}
+
+/// Calls `visit` with the joint as the GenericJoint that it is; not for one without dofs.
+template <class Visit>
+[[gnu::always_inline]] inline void TreeDynamics::visit(const Link& link, Visit&& visit)
+{
+  using namespace dart::math;
+  switch (link.kind) {
+  case Kind::none:
+    break;
+  case Kind::r1:
+    visit(static_cast<GenericJoint<R1Space>&>(*link.joint));
+    break;
+  case Kind::r2:
+    visit(static_cast<GenericJoint<R2Space>&>(*link.joint));
+    break;
+  case Kind::r3:
+    visit(static_cast<GenericJoint<R3Space>&>(*link.joint));
+    break;
+  case Kind::so3:
+    visit(static_cast<GenericJoint<SO3Space>&>(*link.joint));
+    break;
+  case Kind::se3:
+    visit(static_cast<GenericJoint<SE3Space>&>(*link.joint));
+    break;
+  }
+}
+
+bool TreeDynamics::is_for_engine() const
+{
+  for (const auto& link : links_)
+    if (link->joint->getActuatorType() == Joint::LOCKED) {
+      bool moves = false;
+      visit(*link, [&](auto& joint) { moves = (state(joint).mVelocities.array() != 0.0).any(); });
+      if (moves)
+        return true;
+    }
+  return false;
+}
+
+// --- forward dynamics ------------------------------------------------------------------------------------------------
+
+void TreeDynamics::accelerate()
+{
+  const double dt = skeleton_.getTimeStep();
+  const Eigen::Vector3d gravity = skeleton_.getGravity();
+  for (auto& link : links_) {
+    link->kinematic = link->joint->isKinematic();
+    update_motion(*link);
+  }
+  update_inertias();
+  for (auto link = links_.rbegin(); link != links_.rend(); ++link)
+    update_bias_force(**link, gravity, dt);
+  mark_accelerations();
+  for (auto& link : links_)
+    update_acceleration(*link, dt);
+}
+
+/// Poses and velocities, and the acceleration that comes of them alone.
+void TreeDynamics::update_motion(Link& link)
+{
+  Joint& joint = *link.joint;
+  BodyNode& body = *link.body;
+  if (joint.*JointOf::transform_dirty) {
+    if (link.axis != nullptr) {
+      const auto& q = static_cast<RevoluteJoint&>(joint).getPositionsStatic();
+      joint.*JointOf::transform = joint.getTransformFromParentBodyNode() * dart::math::expAngular(*link.axis * q)
+                                  * joint.getTransformFromChildBodyNode().inverse();
+      joint.*JointOf::transform_dirty = false;
+    } else {
+      joint.getRelativeTransform();
+    }
+  }
+  const Eigen::Isometry3d& T = joint.*JointOf::transform;
+  if (link.entity->*EntityOf::transform_dirty) {
+    link.frame->*FrameOf::transform = link.parent_frame->*FrameOf::transform * T;
+    link.entity->*EntityOf::transform_dirty = false;
+  }
+  if (link.entity->*EntityOf::velocity_dirty) {
+    if (joint.*JointOf::velocity_dirty) {
+      visit(link, [&](auto& typed) {
+        joint.*JointOf::velocity = jacobian(typed, link.constant) * state(typed).mVelocities;
+      });
+      joint.*JointOf::velocity_dirty = false;
+    }
+    link.frame->*FrameOf::velocity
+        = spatial::to_child(T, link.parent_frame->*FrameOf::velocity) + joint.*JointOf::velocity;
+    link.entity->*EntityOf::velocity_dirty = false;
+  }
+  if (body.*Body::partial_acceleration_dirty) {
+    if (link.kind == Kind::none)
+      (body.*Body::partial_acceleration).setZero();
+    visit(link, [&](auto& typed) {
+      const Vector6 relative = jacobian(typed, link.constant) * state(typed).mVelocities;
+      body.*Body::partial_acceleration = spatial::cross(link.frame->*FrameOf::velocity, relative)
+                                         + jacobian_rate(typed, link.constant) * state(typed).mVelocities;
+    });
+    body.*Body::partial_acceleration_dirty = false;
+  }
+}
+
+/// The articulated inertias of the trees in which they are out of date.
+void TreeDynamics::update_inertias()
+{
+  const double dt = skeleton_.getTimeStep();
+  for (auto link = links_.rbegin(); link != links_.rend(); ++link)
+    if (engine::SkeletonMembers::tree(skeleton_, (*link)->tree).mArticulatedInertia)
+      update_inertia(**link, dt);
+  for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
+    engine::SkeletonMembers::tree(skeleton_, tree).mArticulatedInertia = false;
+}
+
+/// Without and with implicit damping and springs; what is the same is formed once.
+void TreeDynamics::update_inertia(Link& link, double dt)
+{
+  Matrix6& plain = link.body->*Body::inertia;
+  Matrix6& implicit = link.body->*Body::inertia_implicit;
+  link.implicit = false;
+  plain = *link.inertia;
+  for (const Link* child : link.children) {
+    add_child_inertia(*child, child->body->*Body::inertia, false, plain);
+    link.implicit |= child->implicit;
+  }
+  implicit = link.implicit ? *link.inertia : plain;
+  if (link.implicit)
+    for (const Link* child : link.children)
+      add_child_inertia(*child, child->body->*Body::inertia_implicit, true, implicit);
+  if (link.kinematic)
+    return;
+  visit(link, [&](auto& joint) {
+    using Space = SpaceOf<decltype(joint)>;
+    const auto& J = jacobian(joint, link.constant);
+    const auto& terms = properties(joint);
+    const bool own_terms = (terms.mDampingCoefficients.array() != 0.0).any() || (terms.mSpringStiffnesses.array() != 0.0).any();
+    typename Space::Matrix projected = J.transpose() * plain * J;
+    joint.*Generic<Space>::inverse_inertia = dart::math::inverse<Space>(projected);
+    if (!link.implicit && !own_terms) {
+      joint.*Generic<Space>::inverse_inertia_implicit = joint.*Generic<Space>::inverse_inertia;
+      return;
+    }
+    if (link.implicit)
+      projected = J.transpose() * implicit * J;
+    projected += (dt * terms.mDampingCoefficients + dt * dt * terms.mSpringStiffnesses).asDiagonal();
+    joint.*Generic<Space>::inverse_inertia_implicit = dart::math::inverse<Space>(projected);
+    link.implicit = true;
+  });
+}
+
+/// Adds what a body sees of its child's articulated inertia through the child's joint.
+void TreeDynamics::add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum)
+{
+  const Eigen::Isometry3d back = (child.joint->*JointOf::transform).inverse();
+  if (child.kinematic || child.kind == Kind::none) {
+    sum += dart::math::transformInertia(back, inertia);
+    return;
+  }
+  visit(child, [&](auto& joint) {
+    using Space = SpaceOf<decltype(joint)>;
+    const auto& inverse = joint.*(implicit ? Generic<Space>::inverse_inertia_implicit : Generic<Space>::inverse_inertia);
+    const typename Space::JacobianMatrix IJ = inertia * jacobian(joint, child.constant);
+    Matrix6 left = inertia;
+    left.noalias() -= IJ * inverse * IJ.transpose();
+    sum += dart::math::transformInertia(back, left);
+  });
+}
+
+/// What acts on a body beside its joint to the parent, and of it what that joint feels.
+void TreeDynamics::update_bias_force(Link& link, const Eigen::Vector3d& gravity, double dt)
+{
+  BodyNode& body = *link.body;
+  const Matrix6& I = *link.inertia;
+  Vector6& weight = body.*Body::gravity_force;
+  if (body.getGravityMode()) {
+    Vector6 g = Vector6::Zero();
+    g.tail<3>().noalias() = (link.frame->*FrameOf::transform).linear().transpose() * gravity;
+    weight.noalias() = I * g;
+  } else {
+    weight.setZero();
+  }
+  const Vector6& V = link.frame->*FrameOf::velocity;
+  Vector6& bias = body.*Body::bias_force;
+  bias = -spatial::minus_cross_force(V, I * V) - *link.external_force - weight;
+  for (const Link* child : link.children)
+    add_child_bias_force(*child, bias);
+  if (link.kind == Kind::none)
+    return;
+  const Vector6 force = body.*Body::inertia_implicit * body.*Body::partial_acceleration + bias;
+  visit(link, [&](auto& joint) { update_total_force(joint, link, force, dt); });
+}
+
+void TreeDynamics::add_child_bias_force(const Link& child, Vector6& sum)
+{
+  const BodyNode& body = *child.body;
+  const Vector6& force = body.*Body::bias_force;
+  const Matrix6& I = body.*Body::inertia_implicit;
+  const Vector6& partial = body.*Body::partial_acceleration;
+  const Eigen::Isometry3d& T = child.joint->*JointOf::transform;
+  if (child.kind == Kind::none)
+    sum += spatial::to_parent(T, force + I * partial);
+  visit(child, [&](auto& joint) {
+    using Space = SpaceOf<decltype(joint)>;
+    const auto& J = jacobian(joint, child.constant);
+    const Vector6 beta
+        = child.kinematic
+              ? Vector6(force + I * (partial + J * state(joint).mAccelerations))
+              : Vector6(
+                    force
+                    + I
+                          * (partial
+                             + J * joint.*Generic<Space>::inverse_inertia_implicit * joint.*Generic<Space>::total_force));
+    sum += spatial::to_parent(T, beta);
+  });
+}
+
+/// The force along a joint's dofs; of a joint whose motion is prescribed the acceleration.
+template <class Space>
+void TreeDynamics::update_total_force(GenericJoint<Space>& joint, const Link& link, const Vector6& force, double dt)
+{
+  auto& s = state(joint);
+  switch (joint.getActuatorType()) {
+  case Joint::FORCE:
+    s.mForces = s.mCommands;
+    break;
+  case Joint::ACCELERATION:
+    assign(s.mAccelerations, s.mCommands);
+    return;
+  case Joint::VELOCITY:
+    assign<typename Space::Vector>(s.mAccelerations, (s.mCommands - s.mVelocities) / dt);
+    return;
+  case Joint::LOCKED: // at rest (is_for_engine)
+    assign<typename Space::Vector>(s.mAccelerations, Space::Vector::Zero());
+    return;
+  default: // passive; servo and mimic joints are driven by constraints
+    s.mForces.setZero();
+  }
+  const auto& p = properties(joint);
+  const typename Space::Vector spring
+      = -p.mSpringStiffnesses.cwiseProduct(s.mPositions - p.mRestPositions + s.mVelocities * dt);
+  const typename Space::Vector damping = -p.mDampingCoefficients.cwiseProduct(s.mVelocities);
+  joint.*Generic<Space>::total_force
+      = s.mForces + spring + damping - jacobian(joint, link.constant).transpose() * force;
+}
+
+void TreeDynamics::update_acceleration(Link& link, double dt)
+{
+  BodyNode& body = *link.body;
+  Joint& joint = *link.joint;
+  const Matrix6& I = body.*Body::inertia_implicit;
+  const Vector6 from_parent
+      = spatial::to_child(joint.*JointOf::transform, link.parent_frame->*FrameOf::acceleration);
+  visit(link, [&](auto& typed) {
+    using Space = SpaceOf<decltype(typed)>;
+    const auto& J = jacobian(typed, link.constant);
+    if (!link.kinematic)
+      assign<typename Space::Vector>(
+          state(typed).mAccelerations,
+          typed.*Generic<Space>::inverse_inertia_implicit
+              * (typed.*Generic<Space>::total_force - J.transpose() * I * from_parent));
+    joint.*JointOf::primary_acceleration = J * state(typed).mAccelerations;
+    joint.*JointOf::primary_acceleration_dirty = false;
+  });
+  Vector6& a = link.frame->*FrameOf::acceleration;
+  a = from_parent + joint.*JointOf::primary_acceleration + body.*Body::partial_acceleration;
+  link.entity->*EntityOf::acceleration_dirty = false;
+  Vector6& F = body.*Body::force;
+  F = body.*Body::bias_force;
+  F.noalias() += I * a;
+  if (link.kinematic)
+    visit(link, [&](auto& typed) { update_driving_force(typed, link, dt); });
+}
+
+/// What it takes to prescribe a joint's motion.
+template <class Space>
+void TreeDynamics::update_driving_force(GenericJoint<Space>& joint, const Link& link, double dt)
+{
+  auto& s = state(joint);
+  const auto& p = properties(joint);
+  s.mForces = jacobian(joint, link.constant).transpose() * (link.body->*Body::force);
+  const typename Space::Vector damping = -p.mDampingCoefficients.cwiseProduct(s.mVelocities + s.mAccelerations * dt);
+  s.mForces -= damping;
+  const typename Space::Vector spring = -p.mSpringStiffnesses.cwiseProduct(
+      s.mPositions - p.mRestPositions + s.mVelocities * dt + s.mAccelerations * dt * dt);
+  s.mForces -= spring;
+}
+
+// --- impulses --------------------------------------------------------------------------------------------------------
+
+void TreeDynamics::apply_impulses()
+{
+  if (skeleton_.getNumDofs() == 0)
+    return;
+  const double dt = skeleton_.getTimeStep();
+  update_inertias();
+  for (auto link = links_.rbegin(); link != links_.rend(); ++link)
+    update_bias_impulse(**link);
+  mark_velocities();
+  for (auto& link : links_)
+    update_velocity_change(*link, dt);
+}
+
+void TreeDynamics::update_bias_impulse(Link& link)
+{
+  BodyNode& body = *link.body;
+  Vector6& bias = body.*Body::bias_impulse;
+  bias = -(body.*Body::constraint_impulse);
+  for (const Link* child : link.children) {
+    const Eigen::Isometry3d& T = child->joint->*JointOf::transform;
+    const Vector6& impulse = child->body->*Body::bias_impulse;
+    if (child->kinematic || child->kind == Kind::none) {
+      bias += spatial::to_parent(T, impulse);
+      continue;
+    }
+    visit(*child, [&](auto& joint) {
+      using Space = SpaceOf<decltype(joint)>;
+      const Vector6 beta = impulse
+                           + child->body->*Body::inertia * jacobian(joint, child->constant)
+                                 * joint.*Generic<Space>::inverse_inertia * joint.*Generic<Space>::total_impulse;
+      bias += spatial::to_parent(T, beta);
+    });
+  }
+  if (!link.kinematic)
+    visit(link, [&](auto& joint) {
+      using Space = SpaceOf<decltype(joint)>;
+      joint.*Generic<Space>::total_impulse
+          = joint.*Generic<Space>::constraint_impulses - jacobian(joint, link.constant).transpose() * bias;
+    });
+}
+
+void TreeDynamics::update_velocity_change(Link& link, double dt)
+{
+  BodyNode& body = *link.body;
+  const Matrix6& I = body.*Body::inertia;
+  Vector6& change = body.*Body::velocity_change;
+  const Vector6 from_parent = link.parent == nullptr
+                                  ? Vector6(Vector6::Zero())
+                                  : spatial::to_child(
+                                        link.joint->*JointOf::transform, link.parent->body->*Body::velocity_change);
+  change = from_parent;
+  visit(link, [&](auto& joint) {
+    using Space = SpaceOf<decltype(joint)>;
+    const auto& J = jacobian(joint, link.constant);
+    auto& joint_change = joint.*Generic<Space>::velocity_change;
+    if (!link.kinematic)
+      joint_change = joint.*Generic<Space>::inverse_inertia
+                     * (joint.*Generic<Space>::total_impulse - J.transpose() * I * from_parent);
+    change.noalias() += J * joint_change;
+  });
+  Vector6& impulse = body.*Body::impulse;
+  impulse = body.*Body::bias_impulse;
+  impulse.noalias() += I * change;
+  visit(link, [&](auto& joint) {
+    using Space = SpaceOf<decltype(joint)>;
+    auto& s = state(joint);
+    auto& impulses = joint.*Generic<Space>::impulses;
+    if (link.kinematic)
+      impulses = jacobian(joint, link.constant).transpose() * (body.*Body::force); // the engine's rule
+    if (link.kind == Kind::se3) { // which has one of its own in Debian's engine
+      (link.joint->*JointOf::add_impulse_terms)(dt);
+      return;
+    }
+    if (link.kinematic) {
+      s.mForces.noalias() += impulses / dt;
+      return;
+    }
+    const double rate = 1.0 / dt;
+    const auto& joint_change = joint.*Generic<Space>::velocity_change;
+    assign<typename Space::Vector>(s.mVelocities, s.mVelocities + joint_change);
+    assign<typename Space::Vector>(s.mAccelerations, s.mAccelerations + joint_change * rate);
+    s.mForces.noalias() += impulses * rate;
+  });
+  body.*Body::force += impulse / dt;
+}
+
+// --- integration -----------------------------------------------------------------------------------------------------
+
+// Ball and free joints move by the engine's code, which goes through the tree where it finds that not all is marked.
+
+void TreeDynamics::integrate_velocities(double dt)
+{
+  bool changed = false;
+  for (auto& link : links_)
+    visit(*link, [&](auto& joint) {
+      using Vector = typename SpaceOf<decltype(joint)>::Vector;
+      auto& s = state(joint);
+      if (link->kind == Kind::se3)
+        changed |= (s.mVelocities.array() != 0.0).any() || (s.mAccelerations.array() != 0.0).any();
+      else
+        changed |= assign<Vector>(s.mVelocities, s.mVelocities + s.mAccelerations * dt);
+    });
+  if (changed)
+    mark_velocities();
+  for (auto& link : links_)
+    if (link->kind == Kind::se3)
+      (link->joint->*JointOf::integrate_velocities)(dt);
+}
+
+void TreeDynamics::integrate_positions(double dt)
+{
+  bool changed = false;
+  for (auto& link : links_)
+    visit(*link, [&](auto& joint) {
+      using Vector = typename SpaceOf<decltype(joint)>::Vector;
+      auto& s = state(joint);
+      if (!link->plain_integration)
+        changed |= (s.mVelocities.array() != 0.0).any();
+      else
+        changed |= assign<Vector>(s.mPositions, s.mPositions + dt * s.mVelocities);
+    });
+  if (changed)
+    mark_positions();
+  for (auto& link : links_)
+    if (!link->plain_integration)
+      (link->joint->*JointOf::integrate_positions)(dt);
+}
+
+// --- what is out of date ---------------------------------------------------------------------------------------------
+
+void TreeDynamics::mark_positions()
+{
+  mark_velocities();
+  for (auto& link : links_) {
+    Joint& joint = *link->joint;
+    BodyNode& body = *link->body;
+    joint.*JointOf::transform_dirty = joint.*JointOf::jacobian_dirty = true;
+    if (!(body.*Body::jacobian_dirty))
+      (body.*Body::mark_jacobian)();
+    if (link->entity->*EntityOf::transform_dirty)
+      continue;
+    link->entity->*EntityOf::transform_dirty = true;
+    for (Entity* other : body.*Body::others)
+      if (!(other->*EntityOf::transform_dirty && other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty)
+          || !is_unheard(*other))
+        other->dirtyTransform();
+  }
+  const auto mark = [](auto& dirty) {
+    dirty.mArticulatedInertia = dirty.mMassMatrix = dirty.mAugMassMatrix = dirty.mInvMassMatrix = dirty.mInvAugMassMatrix
+        = dirty.mGravityForces = dirty.mExternalForces = true;
+  };
+  mark(engine::SkeletonMembers::all(skeleton_));
+  for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
+    mark(engine::SkeletonMembers::tree(skeleton_, tree));
+}
+
+void TreeDynamics::mark_velocities()
+{
+  for (auto& link : links_) {
+    Joint& joint = *link->joint;
+    BodyNode& body = *link->body;
+    joint.*JointOf::velocity_dirty = joint.*JointOf::jacobian_rate_dirty = true;
+    if (!(body.*Body::jacobian_rate_dirty && body.*Body::world_jacobian_rate_dirty))
+      (body.*Body::mark_jacobian_rate)();
+    body.*Body::partial_acceleration_dirty = true;
+    if (link->entity->*EntityOf::velocity_dirty)
+      continue;
+    link->entity->*EntityOf::velocity_dirty = true;
+    for (Entity* other : body.*Body::others)
+      if (!(other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
+        other->dirtyVelocity();
+  }
+  const auto mark = [](auto& dirty) { dirty.mCoriolisForces = dirty.mCoriolisAndGravityForces = true; };
+  mark(engine::SkeletonMembers::all(skeleton_));
+  for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
+    mark(engine::SkeletonMembers::tree(skeleton_, tree));
+  mark_accelerations();
+}
+
+void TreeDynamics::mark_accelerations()
+{
+  for (auto& link : links_) {
+    Joint& joint = *link->joint;
+    joint.*JointOf::acceleration_dirty = joint.*JointOf::primary_acceleration_dirty = true;
+    if (link->entity->*EntityOf::acceleration_dirty)
+      continue;
+    link->entity->*EntityOf::acceleration_dirty = true;
+    for (Entity* other : link->body->*Body::others)
+      if (!(other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
+        other->dirtyAcceleration();
+  }
+}
+
+} // namespace pydart2

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <dart/dynamics/GenericJoint.hpp>
+#include <dart/dynamics/Skeleton.hpp>
+#include <memory>
+#include <vector>
+
+namespace pydart2 {
+
+/// Forward dynamics, integration and impulses of a skeleton of rigid bodies: Featherstone's articulated-body algorithm
+/// (Rigid Body Dynamics Algorithms, chapter 7) with implicit damping and springs, as DART's Skeleton does it, in loops
+/// over links that are found once. Each sum is formed in DART's order with the same Eigen types, so that all results have
+/// DART's bits.
+///
+/// The numbers are those that DART keeps in its bodies and joints, and so are the flags that say which are out of date:
+/// nothing is copied, whoever asks the engine gets the same, and what changes in a model counts at once. What makes it
+/// faster is what is left out: virtual calls, reference counts, one search through the tree for each joint that moves,
+/// assertions, and the second articulated inertia where neither damping nor springs make it another one.
+///
+/// Valid until the tree changes.
+class TreeDynamics
+{
+public:
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+  /// Null for a skeleton with soft bodies or with a joint or body of a class that is not the engine's.
+  static std::unique_ptr<TreeDynamics> of(dart::dynamics::Skeleton& skeleton);
+
+  /// Whether the next step is one that the engine does in an order of its own: a locked joint that moves.
+  bool is_for_engine() const;
+
+  /// As Skeleton::computeForwardDynamics(), integrateVelocities(), computeImpulseForwardDynamics() and
+  /// integratePositions().
+  void accelerate();
+  void integrate_velocities(double dt);
+  void apply_impulses();
+  void integrate_positions(double dt);
+
+private:
+  enum class Kind { none, r1, r2, r3, so3, se3 };
+
+  struct Link
+  {
+    dart::dynamics::BodyNode* body;
+    dart::dynamics::Joint* joint;
+    dart::dynamics::Frame* frame;
+    dart::dynamics::Entity* entity;
+    const dart::dynamics::Frame* parent_frame;
+    Link* parent = nullptr; ///< Null at a root.
+    Kind kind = Kind::none;
+    std::size_t tree = 0;
+    const Matrix6* inertia;
+    const Vector6* external_force;
+    const Eigen::Vector3d* axis = nullptr; ///< Of a revolute joint.
+    bool constant = true;                  ///< The joint's Jacobian never changes.
+    bool plain_integration = true;         ///< q + dt dq, which is not how a ball or free joint goes on.
+    std::vector<Link*> children;           ///< In the engine's order, in which their sums are formed.
+
+    bool kinematic = false; ///< Its motion is prescribed. Brought up to date by each pass.
+    bool implicit = false;  ///< The articulated inertia with implicit damping and springs is another one.
+  };
+
+  explicit TreeDynamics(dart::dynamics::Skeleton& skeleton);
+  bool add(dart::dynamics::BodyNode& body, Link* parent);
+
+  template <class Visit>
+  static void visit(const Link& link, Visit&& visit);
+
+  void update_motion(Link& link);
+  void update_inertias();
+  void update_inertia(Link& link, double dt);
+  static void add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum);
+  static void update_bias_force(Link& link, const Eigen::Vector3d& gravity, double dt);
+  static void add_child_bias_force(const Link& child, Vector6& sum);
+  template <class Space>
+  static void update_total_force(
+      dart::dynamics::GenericJoint<Space>& joint, const Link& link, const Vector6& force, double dt);
+  static void update_acceleration(Link& link, double dt);
+  template <class Space>
+  static void update_driving_force(dart::dynamics::GenericJoint<Space>& joint, const Link& link, double dt);
+  static void update_bias_impulse(Link& link);
+  static void update_velocity_change(Link& link, double dt);
+
+  void mark_positions();
+  void mark_velocities();
+  void mark_accelerations();
+
+  dart::dynamics::Skeleton& skeleton_;
+  std::vector<std::unique_ptr<Link>> links_; ///< Parents first.
+};
+
+} // namespace pydart2

@@ -1,0 +1,132 @@
+"""Choosing the dynamics; ``test_bitwise.py`` compares them in all models, joints and actuators."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import pydart2
+from physics.models import standing_atlas
+from pydart2.joint import Joint
+
+from .test_choice import held_cubes, results, skel
+
+ENVIRONMENT = os.environ.get("PYDART2_DYNAMICS") or "engine"
+
+
+def robot() -> pydart2.World:
+    """Targets, armature, external forces, and joints of each actuator."""
+    world = skel("fullbody1")
+    body = world.skeletons[1]
+    kinds = (Joint.PASSIVE, Joint.SERVO, Joint.ACCELERATION, Joint.VELOCITY, Joint.LOCKED, Joint.FORCE)
+    for joint, kind in zip(body.joints[3:], kinds, strict=False):
+        joint.set_actuator_type(kind)
+    for dof in body.dofs[-4:]:
+        dof.set_armature(0.01)
+    body.bodynodes[2].add_ext_force([0.0, 50.0, 10.0])
+    body.set_commands(np.linspace(-1.0, 1.0, body.ndofs))
+    return world
+
+
+def chain() -> pydart2.World:
+    world = skel("chain")
+    world.skeletons[0].set_positions(world.skeletons[0].q + 0.3)
+    return world
+
+
+MAKERS: list[tuple[Callable[[], pydart2.World], int]] = [
+    (chain, 500),
+    (held_cubes, 300),
+    (standing_atlas, 60),
+    (robot, 200),
+    (lambda: skel("softBodies"), 30),
+]
+
+
+@pytest.mark.parametrize(("make", "steps"), MAKERS, ids=["chain", "cubes", "Atlas", "robot", "softBodies"])
+def test_same_bits(make: Callable[[], pydart2.World], steps: int) -> None:
+    """Also where the world goes from one to the other while it runs, and where all is read in between."""
+    worlds = [make() for _ in range(3)]
+    for world, name in zip(worlds, ("engine", "fast", "fast"), strict=True):
+        world.set_dynamics(name)
+    for i in range(10):
+        worlds[2].set_dynamics(("engine", "fast")[i % 2])
+        seen = [results(world, steps // 10) for world in worlds]
+        assert seen == seen[:1] * 3
+        for engines, ours in zip(worlds[0].skeletons, worlds[1].skeletons, strict=True):
+            assert [m.tobytes() for m in (ours.M, ours.c, ours.C)] == [
+                m.tobytes() for m in (engines.M, engines.c, engines.C)
+            ]
+            for a, b in zip(engines.bodynodes, ours.bodynodes, strict=True):
+                assert a.world_transform().tobytes() == b.world_transform().tobytes()
+                assert a.com_linear_acceleration().tobytes() == b.com_linear_acceleration().tobytes()
+
+
+def test_locked_joint_that_moves() -> None:
+    """The engine stops it in the middle of its pass: that step is the engine's."""
+    worlds = [chain() for _ in range(2)]
+    for world, name in zip(worlds, ("engine", "fast"), strict=True):
+        world.set_dynamics(name)
+        world.step(100)
+        world.skeletons[0].joints[4].set_actuator_type(Joint.LOCKED)
+    assert results(worlds[0], 50) == results(worlds[1], 50)
+
+
+def test_tree_that_changes() -> None:
+    worlds = [chain() for _ in range(2)]
+    for world, name in zip(worlds, ("engine", "fast"), strict=True):
+        world.set_dynamics(name)
+        world.step(10)
+        world.skeletons[0].set_root_joint_to_weld()
+        world.skeletons[0].bodynodes[3].set_mass(3.0)
+    assert results(worlds[0], 50) == results(worlds[1], 50)
+
+
+def test_blow_up_goes_back() -> None:
+    """To the state before the step; what is not a number stays in no memory."""
+    world = chain()
+    world.set_dynamics("fast")
+    world.step(5)
+    start = world.snapshot()
+    world.skeletons[0].set_forces(np.full(world.skeletons[0].ndofs, 1e29))
+    before = world.x
+    with pytest.raises(pydart2.SimulationError, match="blew up"):
+        for _ in range(10):
+            before = world.x
+            world.step()
+    assert world.x.tobytes() == before.tobytes()
+    world.restore(start)
+    twin = chain()
+    twin.set_dynamics("engine")
+    twin.step(5)
+    assert results(world, 20) == results(twin, 20)
+
+
+def test_names() -> None:
+    world = chain()
+    assert world.dynamics() == ENVIRONMENT
+    world.set_dynamics("fast")
+    with pytest.raises(ValueError, match="no dynamics 'quick'; there are engine and fast"):
+        world.set_dynamics("quick")
+    assert world.dynamics() == "fast"
+    assert world.clone().dynamics() == "fast"
+    assert pickle.loads(pickle.dumps(world)).dynamics() == "fast"
+    world.set_dynamics("engine")
+    assert pickle.loads(pickle.dumps(world)).dynamics() == world.clone().dynamics() == "engine"
+
+
+@pytest.mark.parametrize("name", ["", "fast", "engine", "quick"])
+def test_environment_variable(name: str) -> None:
+    code = "import pydart2; print(pydart2.World(0.1).dynamics(), pydart2.engine_info().dynamics)"
+    environment = os.environ | {"PYDART2_DYNAMICS": name}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)
+    if name == "quick":
+        assert "ValueError: environment variable PYDART2_DYNAMICS: no dynamics 'quick'" in done.stderr
+    else:
+        assert done.stdout.split() == [name or "engine"] * 2
