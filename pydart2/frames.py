@@ -52,6 +52,14 @@ class Frame:
         return _turned(_spatial(self, n) - _carried(self, to, n), axes)
 
 
+def _rotation(matrix: ArrayLike) -> Array:
+    """The matrix, if it is a rotation."""
+    R = np.asarray(matrix, dtype=float)
+    if R.shape != (3, 3) or not np.allclose(R @ R.T, np.eye(3), atol=1e-6) or np.linalg.det(R) < 0.0:
+        raise ValueError(f"a rotation is an orthonormal, right-handed matrix of the shape (3, 3), got {matrix!r}")
+    return R
+
+
 class SimpleFrame(Frame):
     """A frame fixed in a body, or in the world.
 
@@ -67,8 +75,6 @@ class SimpleFrame(Frame):
     Attributes
     ----------
     parent : BodyNode or None
-    relative : array, shape (4, 4)
-        Pose in the parent, m; may be changed.
     """
 
     def __init__(
@@ -78,15 +84,24 @@ class SimpleFrame(Frame):
         translation: ArrayLike = (0.0, 0.0, 0.0),
     ) -> None:
         self.parent = parent
-        self.relative: Array = np.eye(4)
+        pose = np.eye(4)
         if rotation is not None:
-            R = np.asarray(rotation, dtype=float)
-            if R.shape != (3, 3) or not np.allclose(R @ R.T, np.eye(3), atol=1e-6) or np.linalg.det(R) < 0.0:
-                raise ValueError(
-                    f"a rotation is an orthonormal, right-handed matrix of the shape (3, 3), got {rotation!r}"
-                )
-            self.relative[:3, :3] = R
-        self.relative[:3, 3] = translation
+            pose[:3, :3] = _rotation(rotation)
+        pose[:3, 3] = translation
+        self.relative = pose
+
+    @property
+    def relative(self) -> Array:
+        """Pose in the parent, shape (4, 4), m; may be changed, as a whole or in its elements."""
+        return self._relative
+
+    @relative.setter
+    def relative(self, pose: ArrayLike) -> None:
+        T = np.array(pose, dtype=float)
+        if T.shape != (4, 4) or not np.isfinite(T).all() or (T[3] != (0.0, 0.0, 0.0, 1.0)).any():
+            raise ValueError(f"a pose is a finite matrix of the shape (4, 4) whose last row is 0 0 0 1, got {pose!r}")
+        _rotation(T[:3, :3])
+        self._relative = T
 
     @property
     def T(self) -> Array:  # noqa: N802 (the field's name)

@@ -24,6 +24,10 @@ class Sensor:
 
     Parameters
     ----------
+    world
+        Whose time it reads by.
+    labels
+        A name for each of its numbers.
     noise
         Standard deviation of each number, in its unit; a number or shape (n,).
     bias
@@ -32,27 +36,77 @@ class Sensor:
         Readings in a second of the world's time; between two it gives the last one. None: a new one each time step.
     seed
         Of the noise.
-
-    Attributes
-    ----------
-    world : World
-    labels : list of str
-        A name for each of its numbers.
     """
 
-    world: World
-    labels: list[str]
-
     def __init__(
-        self, *, noise: ArrayLike = 0.0, bias: ArrayLike = 0.0, rate: float | None = None, seed: int = 0
+        self,
+        world: World,
+        labels: Iterable[str],
+        *,
+        noise: ArrayLike = 0.0,
+        bias: ArrayLike = 0.0,
+        rate: float | None = None,
+        seed: int = 0,
     ) -> None:
-        if rate is not None and rate <= 0.0:
-            raise ValueError(f"the rate of a sensor is > 0 readings in a second, got {rate}")
-        self.noise = np.asarray(noise, dtype=float)
-        self.bias = np.asarray(bias, dtype=float)
+        self._world = world
+        self._labels = tuple(labels)
+        self.noise = noise
+        self.bias = bias
         self.rate = rate
         self._random = np.random.default_rng(seed)
         self._reading: tuple[float, Array] | None = None
+
+    @property
+    def world(self) -> World:
+        """The world that it reads in."""
+        return self._world
+
+    @property
+    def labels(self) -> list[str]:
+        """A name for each of its numbers."""
+        return list(self._labels)
+
+    @property
+    def noise(self) -> Array:
+        """Standard deviation of each number, shape (n,), in its unit; set by a number or shape (n,), >= 0."""
+        return self._noise.copy()
+
+    @noise.setter
+    def noise(self, noise: ArrayLike) -> None:
+        values = self._each(noise, "noise")
+        if (values < 0.0).any():
+            raise ValueError(f"the noise of a sensor is a standard deviation >= 0, got {noise!r}")
+        self._noise = values
+
+    @property
+    def bias(self) -> Array:
+        """What is added to each number, shape (n,), in its unit; set by a number or shape (n,)."""
+        return self._bias.copy()
+
+    @bias.setter
+    def bias(self, bias: ArrayLike) -> None:
+        self._bias = self._each(bias, "bias")
+
+    @property
+    def rate(self) -> float | None:
+        """Readings in a second of the world's time, > 0; None for a new one each time step."""
+        return self._rate
+
+    @rate.setter
+    def rate(self, rate: float | None) -> None:
+        if rate is not None and not 0.0 < rate < float("inf"):
+            raise ValueError(f"the rate of a sensor is > 0 readings in a second, or None for each step; got {rate!r}")
+        self._rate = rate
+
+    def _each(self, values: ArrayLike, what: str) -> Array:
+        """A number for each of the sensor's."""
+        numbers = np.asarray(values, dtype=float)
+        n = len(self._labels)
+        if numbers.shape not in ((), (n,)) or not np.isfinite(numbers).all():
+            raise ValueError(
+                f"the {what} of this sensor is a finite number, or one for each of its {n}; got {values!r}"
+            )
+        return np.array(np.broadcast_to(numbers, n))
 
     def measure(self) -> Array:
         """What there is, without rate, noise and bias, shape (n,), in the units of read()."""
@@ -60,11 +114,11 @@ class Sensor:
 
     def read(self) -> Array:
         """What the sensor says, shape (n,), in the units of its class. A copy."""
-        period = 0.0 if self.rate is None else 1.0 / self.rate
+        period = 0.0 if self._rate is None else 1.0 / self._rate
         now = self.world.t
         if self._reading is None or now < self._reading[0] or now > self._reading[0] + period * (1.0 - 1e-9):
-            value = self.measure() + self.bias
-            self._reading = now, value + self.noise * self._random.standard_normal(len(value))
+            value = self.measure() + self._bias
+            self._reading = now, value + self._noise * self._random.standard_normal(len(value))
         return self._reading[1].copy()
 
 
@@ -88,15 +142,19 @@ class IMU(Sensor):
         rate: float | None = None,
         seed: int = 0,
     ) -> None:
-        super().__init__(noise=noise, bias=bias, rate=rate, seed=seed)
-        self.frame: Frame = frame
         self._body, self._offset = _place(frame)
-        self.world = self._body.skeleton.world
-        self.labels = [f"{self._body.name}.{kind}_{axis}" for kind in ("acceleration", "rate") for axis in "xyz"]
+        self._frame: Frame = frame
+        labels = [f"{self._body.name}.{kind}_{axis}" for kind in ("acceleration", "rate") for axis in "xyz"]
+        super().__init__(self._body.skeleton.world, labels, noise=noise, bias=bias, rate=rate, seed=seed)
+
+    @property
+    def frame(self) -> Frame:
+        """Where it sits."""
+        return self._frame
 
     def measure(self) -> Array:
         """What there is, without rate, noise and bias, shape (6,), m/s² and rad/s."""
-        back = self.frame.T[:3, :3].T
+        back = self._frame.T[:3, :3].T
         a = self._body.world_linear_acceleration(self._offset) - self.world.gravity()
         return np.concatenate([back @ a, back @ self._body.world_angular_velocity()])
 
@@ -119,17 +177,27 @@ class JointEncoder(Sensor):
         rate: float | None = None,
         seed: int = 0,
     ) -> None:
-        super().__init__(noise=noise, bias=bias, rate=rate, seed=seed)
         if not dofs:
             raise ValueError("a JointEncoder needs a dof")
-        self.dofs = list(dofs)
-        self.world = self.dofs[0].skeleton.world
-        self.labels = [f"{dof.name}.position" for dof in self.dofs]
+        self._skeleton = dofs[0].skeleton
+        for dof in dofs:
+            if dof.skeleton is not self._skeleton:
+                raise ValueError(
+                    f"the dofs of a JointEncoder are of one skeleton; {dof!r} is not of {self._skeleton!r}"
+                )
+        self._dofs = tuple(dofs)
+        labels = [f"{dof.name}.position" for dof in dofs]
+        super().__init__(self._skeleton.world, labels, noise=noise, bias=bias, rate=rate, seed=seed)
+
+    @property
+    def dofs(self) -> list[Dof]:
+        """What it reads."""
+        return list(self._dofs)
 
     def measure(self) -> Array:
         """What there is, without rate, noise and bias, shape (n,), rad or m."""
-        q = self.dofs[0].skeleton.q
-        return np.array([q[dof.id] for dof in self.dofs])
+        q = self._skeleton.q
+        return np.array([q[dof.id] for dof in self._dofs])
 
 
 class ForceTorque(Sensor):
@@ -150,14 +218,18 @@ class ForceTorque(Sensor):
         rate: float | None = None,
         seed: int = 0,
     ) -> None:
-        super().__init__(noise=noise, bias=bias, rate=rate, seed=seed)
-        self.joint = joint
-        self.world = joint.skeleton.world
-        self.labels = [f"{joint.name}.{kind}_{axis}" for kind in ("moment", "force") for axis in "xyz"]
+        self._joint = joint
+        labels = [f"{joint.name}.{kind}_{axis}" for kind in ("moment", "force") for axis in "xyz"]
+        super().__init__(joint.skeleton.world, labels, noise=noise, bias=bias, rate=rate, seed=seed)
+
+    @property
+    def joint(self) -> Joint:
+        """What it sits in."""
+        return self._joint
 
     def measure(self) -> Array:
         """What there is, without rate, noise and bias, shape (6,), N m and N."""
-        return self.joint.wrench()
+        return self._joint.wrench()
 
 
 class Touch(Sensor):
@@ -178,14 +250,18 @@ class Touch(Sensor):
         rate: float | None = None,
         seed: int = 0,
     ) -> None:
-        super().__init__(noise=noise, bias=bias, rate=rate, seed=seed)
-        self.body = body
-        self.world = body.skeleton.world
-        self.labels = [f"{body.name}.pressure"]
+        self._body = body
+        world, labels = body.skeleton.world, [f"{body.name}.pressure"]
+        super().__init__(world, labels, noise=noise, bias=bias, rate=rate, seed=seed)
+
+    @property
+    def body(self) -> BodyNode:
+        """What is pressed."""
+        return self._body
 
     def measure(self) -> Array:
         """What there is, without rate, noise and bias, shape (1,), N."""
-        contacts = self.body.contacts
+        contacts = self._body.contacts
         return np.array([np.einsum("ij,ij->", contacts.forces, contacts.normals)])
 
 
@@ -199,13 +275,16 @@ class Sensors:
     Attributes
     ----------
     sensors : list of Sensor
-    labels : list of str
-        A name for each number.
+        May be changed.
     """
 
     def __init__(self, sensors: Iterable[Sensor]) -> None:
         self.sensors = list(sensors)
-        self.labels = [label for sensor in self.sensors for label in sensor.labels]
+
+    @property
+    def labels(self) -> list[str]:
+        """A name for each number."""
+        return [label for sensor in self.sensors for label in sensor.labels]
 
     def read(self) -> Array:
         """The readings one after another, shape (n,), in the units of each sensor."""

@@ -98,3 +98,43 @@ def test_what_does_not_fit_is_refused() -> None:
         Touch(World(0.001).add_sphere(0.1).bodynodes[0], rate=0.0)
     with pytest.raises(ValueError, match="fixed in the world"):
         IMU(SimpleFrame())
+
+
+def test_what_is_set_later_is_checked() -> None:
+    """As what is given at first; a refusal changes nothing, and copies change nothing."""
+    body = World(0.001).add_sphere(0.1).bodynodes[0]
+    imu = IMU(body, noise=0.5, rate=10.0)
+    for rate in (0.0, -1.0, np.nan, np.inf):
+        with pytest.raises(ValueError, match="rate"):
+            imu.rate = rate
+    for noise in (-1.0, np.nan, np.ones(5)):
+        with pytest.raises(ValueError, match="noise"):
+            imu.noise = noise
+    with pytest.raises(ValueError, match="one for each of its 6"):
+        imu.bias = [1.0, 2.0]
+    imu.noise[:] = 7.0
+    assert imu.rate == 10.0 and imu.noise.tolist() == [0.5] * 6 and imu.bias.tolist() == [0.0] * 6
+    imu.rate, imu.noise, imu.bias = None, np.zeros(6), np.arange(6)
+    assert_allclose(imu.read() - imu.measure(), np.arange(6), atol=1e-12)
+    with pytest.raises(AttributeError):
+        imu.world = None  # type: ignore[misc, assignment]
+
+
+def test_the_pose_of_a_frame_stays_one() -> None:
+    """What is set is checked as what is given at first."""
+    frame = SimpleFrame()
+    for wrong in (np.eye(3), 2.0 * np.eye(4), np.full((4, 4), np.nan), np.diag([1.0, 1.0, -1.0, 1.0])):
+        with pytest.raises(ValueError, match=r"pose|rotation"):
+            frame.relative = wrong
+    for wrong in (np.eye(2), np.eye(4), np.ones(3)):
+        with pytest.raises(ValueError, match="a rotation is"):
+            SimpleFrame(rotation=wrong)
+    assert frame.relative.tolist() == np.eye(4).tolist()
+
+
+def test_an_encoder_reads_one_skeleton() -> None:
+    """The dofs of another would be read in the first one's places."""
+    world = World(0.001)
+    one, other = (world.add_sphere(0.1, position=(x, 0, 0)) for x in (0.0, 1.0))
+    with pytest.raises(ValueError, match="of one skeleton"):
+        JointEncoder([one.dofs[0], other.dofs[1]])
