@@ -68,6 +68,10 @@ class Trajectories:
     dq: DofArray
     failed: dict[int, str]
 
+    def __repr__(self) -> str:
+        worlds, frames, dofs = self.q.shape
+        return f"[Trajectories: {worlds} worlds, {frames - 1} actions, {dofs} dofs, {len(self.failed)} failed]"
+
 
 class Batch:
     """N copies of a world, stepped side by side; arrays have one row per world.
@@ -118,7 +122,10 @@ class Batch:
 
     @property
     def skeleton(self) -> Skeleton:
-        """The skeleton of the first world that `q`, `dq` and so on are of."""
+        """The skeleton of the first world that `q`, `dq` and so on are of.
+
+        A property, unlike `World.skeleton`: others are ``batch.worlds[0].skeleton("box")``.
+        """
         return self.worlds[0].skeletons[self._index]
 
     @property

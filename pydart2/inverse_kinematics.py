@@ -63,6 +63,10 @@ class IKResult:
     restarts: int
     iterations: int
 
+    def __repr__(self) -> str:
+        how = "converged" if self.converged else "not converged"
+        return f"[IKResult: {how}, {self.residual:.3g} m or rad left, {self.iterations} iterations]"
+
 
 def solve(
     skel: Skeleton,

@@ -8,9 +8,17 @@ import numpy as np
 
 from pydart2._native import NamedVector
 from pydart2.indexing import Names
+from pydart2.telling import table_of_vector
 
 if TYPE_CHECKING:
     from pydart2.skeleton import Skeleton
+
+
+class Keys(list[str]):
+    """Names, which are also had by a call, as those of a dict."""
+
+    def __call__(self) -> list[str]:
+        return self
 
 
 class SkelVector(NamedVector):
@@ -58,9 +66,9 @@ class SkelVector(NamedVector):
         return None if self._names is None else self._names.skel
 
     @property
-    def keys(self) -> list[str]:
-        """The names of the entries, in order; empty without names."""
-        return [] if self._names is None else list(self._names.labels)
+    def keys(self) -> Keys:
+        """The names of the entries, in order; empty without names. ``dict(vector)`` calls it."""
+        return Keys(() if self._names is None else self._names.labels)
 
     def to_index(self, key: str | int) -> int | None:
         """The non-negative index of a name or integer; None for anything else."""
@@ -101,6 +109,9 @@ class SkelVector(NamedVector):
         width = max(map(len, self.keys), default=0)
         rows = (f"  {name:<{width}}  {value: .6g}\n" for name, value in zip(self.keys, self.tolist(), strict=True))
         return f"{type(self).__name__}(\n{''.join(rows)})"
+
+    def _repr_html_(self) -> str | None:
+        return table_of_vector(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (type(self), np.array(self), self.keys or None)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2 import contact_forces, screen, spd
+from pydart2 import contact_forces, screen, spd, telling
 from pydart2.assignment import Assignable
 from pydart2.bodynode import BodyNode
 from pydart2.building.short_forms import ShortForms
@@ -654,6 +654,9 @@ class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
     def render_with_color(self, color: ArrayLike) -> None:
         """Draw it in one colour, 3 or 4 numbers, 0 to 1, with the current OpenGL context and matrices."""
         screen.draw("skeleton", self, color)
+
+    def _repr_html_(self) -> str:
+        return telling.table_of_skeleton(self)
 
     def __repr__(self) -> str:
         try:

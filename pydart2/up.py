@@ -66,12 +66,15 @@ class Upright:
         What the world was made with, ``World(dt, up="z")``, which stays when gravity changes; else against gravity.
         Without gravity it is y, and z if all models come from formats whose z axis is up: URDF, SDF, MJCF.
         """
+        return self._upwards()
+
+    def _upwards(self) -> Array:
         if self._up is not None:
             return self._up.copy()
         return _against(self._handle.gravity(), "z" if self._has_z_up_models() else "y")
 
     def _up_in_pictures(self) -> Array:
-        return unit("z") if self._is_along_y_unasked() and self._has_z_up_models() else self.up
+        return unit("z") if self._is_along_y_unasked() and self._has_z_up_models() else self._upwards()
 
     def _has_z_up_models(self) -> bool:
         return bool(self.skeletons) and all(skel._z_up for skel in self.skeletons)

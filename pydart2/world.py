@@ -21,6 +21,7 @@ from pydart2.errors import DestroyedError, NameNotFound
 from pydart2.recording import Recording
 from pydart2.skeleton import Skeleton, _compute_of
 from pydart2.state import Snapshot, model_hash
+from pydart2.telling import Named
 from pydart2.up import Axis, Upright, check, is_z_up
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ def _rebuild(
     return world
 
 
-class World(WorldBuilding, Upright, Assignable):
+class World(WorldBuilding, Upright, Named, Assignable):
     """A simulated world.
 
     >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")

@@ -55,8 +55,7 @@ class WorldBuilding:
     if TYPE_CHECKING:  # what World has
         skeletons: list[Skeleton]
 
-        @property
-        def up(self) -> NDArray[np.float64]: ...
+        def _upwards(self) -> NDArray[np.float64]: ...
 
         def add_skeleton_from_id(self, _skel_id: int) -> Skeleton: ...
 
@@ -84,7 +83,7 @@ class WorldBuilding:
         size
             Its two edges, shape (2,), m.
         """
-        up = self.up
+        up = self._upwards()
         edges = np.asarray(size, dtype=float)
         if edges.shape != (2,):
             raise ValueError(f"a ground has two edges, got {size!r}")

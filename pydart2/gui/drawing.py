@@ -98,6 +98,22 @@ def draw_contact_row(row: NDArray[np.float64], size: float, force_scale: float) 
     draw(scene)
 
 
+def png_of(world: object, width: int, height: int) -> bytes | None:
+    """A picture of a world as a PNG file; None where no OpenGL context can be made."""
+    import io
+
+    from PIL import Image
+
+    from pydart2 import gui  # whose renderer draws by this module
+
+    file = io.BytesIO()
+    try:
+        Image.fromarray(gui.render(world, width, height)).save(file, "png")
+    except ContextError:
+        return None
+    return file.getvalue()
+
+
 def draw_skeleton(skel: Skeleton, rgba: ArrayLike | None = None) -> None:
     """Draw a skeleton, all in one colour of 3 or 4 numbers, 0 to 1, if it is given."""
     scene = Scene(up_of(skel.world))

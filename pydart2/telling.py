@@ -1,0 +1,115 @@
+"""What worlds, skeletons and vectors say of themselves where people look: printed, and in notebooks."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pydart2 import screen
+from pydart2.errors import DestroyedError, NameNotFound
+
+if TYPE_CHECKING:
+    from pydart2.skel_vector import SkelVector
+    from pydart2.skeleton import Skeleton
+    from pydart2.world import World
+
+_MOST_ROWS = 20
+_PICTURE = (480, 360)  # pixels
+
+
+class Named:
+    """The part of World that finds skeletons by name and says what is in it."""
+
+    if TYPE_CHECKING:  # what World has
+        skeletons: list[Skeleton]
+
+    def skeleton(self, query: str | int) -> Skeleton:
+        """A skeleton by name or index; NameNotFound or IndexError if there is none."""
+        if isinstance(query, str):
+            for skel in self.skeletons:
+                if skel.name == query:
+                    return skel
+            raise NameNotFound("skeleton", query, repr(self), [skel.name for skel in self.skeletons])
+        if not isinstance(query, (int, np.integer)):
+            raise TypeError(f"a skeleton is found by name or index, not by {query!r}")
+        if not -len(self.skeletons) <= query < len(self.skeletons):
+            raise IndexError(f"no skeleton {query} in {self!r}: there are {len(self.skeletons)}")
+        return self.skeletons[query]
+
+    def __getitem__(self, query: str | int) -> Skeleton:
+        return Named.skeleton(self, query)
+
+    def __iter__(self) -> Iterator[Skeleton]:
+        return iter(self.skeletons)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [skel.name for skel in self.skeletons]
+
+    def __str__(self) -> str:
+        return "\n".join(_lines(self))  # type: ignore[arg-type]
+
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        printer.text(str(self))
+
+    def _repr_png_(self) -> bytes | None:
+        return screen.picture(self, *_PICTURE)
+
+
+def _lines(world: World) -> Iterator[str]:
+    try:
+        handle, skeletons = world._handle, world.skeletons
+        gravity, up = _numbers(handle.gravity()), _numbers(world._upwards())
+        yield f"World {world.id}: t = {handle.time():g} s, dt = {handle.time_step():g} s, gravity {gravity}, up {up}"
+    except DestroyedError:
+        yield repr(world)
+        return
+    yield (
+        f"{_count(len(skeletons), 'skeleton')}, {_count(sum(s.num_bodynodes() for s in skeletons), 'body', 'bodies')}, "
+        f"{_count(sum(s.num_dofs() for s in skeletons), 'dof')}, {_count(handle.num_contacts(), 'contact')}, "
+        f"{_count(handle.num_frames(), 'frame')}; detector {handle.collision_detector()!r}, "
+        f"solver {handle.constraint_solver()!r}"
+    )
+    width = max((len(skel.name) for skel in skeletons[:_MOST_ROWS]), default=0)
+    for skel in skeletons[:_MOST_ROWS]:
+        parts = f"{_count(skel.num_bodynodes(), 'body', 'bodies')}, {_count(skel.num_dofs(), 'dof')}"
+        yield f"  {skel.id:>2} {skel.name:<{width}}  {parts}, {skel._handle.mass():g} kg"
+    if len(skeletons) > _MOST_ROWS:
+        yield f"  … and {len(skeletons) - _MOST_ROWS} more"
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return "[" + ", ".join(f"{value + 0.0:.4g}" for value in values) + "]"
+
+
+def _count(n: int, one: str, many: str = "") -> str:
+    return f"{n} {one if n == 1 else many or one + 's'}"
+
+
+def table_of_vector(vector: SkelVector) -> str | None:
+    """A table of names and numbers in HTML, that stays small; None for a vector without names."""
+    keys = vector.keys
+    if not keys:
+        return None
+    rows = [(i, name, f"{value:.6g}") for i, (name, value) in enumerate(zip(keys, vector.tolist(), strict=True))]
+    return _table(("", "name", "value"), rows)
+
+
+def table_of_skeleton(skel: Skeleton) -> str:
+    """The dofs of a skeleton with their positions, limits and velocities as a table in HTML, that stays small."""
+    handle = skel._handle
+    numbers = zip(*map(np.ndarray.tolist, (skel.q_lower, skel.q, skel.q_upper, skel.dq)), strict=True)
+    rows = [(i, skel.dofs[i].name, *(f"{n:.4g}" for n in row)) for i, row in enumerate(numbers)]
+    kinds = f"{_count(skel.num_bodynodes(), 'body', 'bodies')}, {_count(skel.num_dofs(), 'dof')}"
+    title = f"<b>{html.escape(skel.name)}</b>: {kinds}, {handle.mass():g} kg"
+    return title + _table(("", "dof", "lower", "q", "upper", "dq"), rows)
+
+
+def _table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
+    """The first and the last rows, if there are many."""
+    half = _MOST_ROWS // 2
+    shown = [*rows[:half], ("…",) * len(head), *rows[-half:]] if len(rows) > _MOST_ROWS else rows
+    lines = "".join("<tr>" + "".join(f"<td>{html.escape(str(c))}</td>" for c in row) + "</tr>" for row in shown)
+    return f"<table><tr>{''.join(f'<th>{name}</th>' for name in head)}</tr>{lines}</table>"
