@@ -48,7 +48,7 @@ if __name__ == "__main__":
 
     # A video: the ending says the kind; .mp4 needs pip install 'pydart2[video]'
     camera = pydart.gui.Camera.look_at(eye=EYE, target=[0.0, -0.25, 0.0], up=[0.0, 1.0, 0.0])
-    pydart.gui.record(world, folder / "headless_video.webp", seconds=1.5, rate=25, width=480, height=360, camera=camera)
+    pydart.gui.record(world, folder / "headless_video.webp", seconds=1.5, fps=25, size=(480, 360), camera=camera)
 
     # Pictures as arrays. The eye may also be a pose, here without rotation, and a vertical field of view
     pose = np.eye(4)

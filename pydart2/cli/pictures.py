@@ -70,7 +70,6 @@ def run_record(args: argparse.Namespace) -> None:
     """Write a movie."""
     from pydart2 import gui
 
-    width, height = args.size
     world = open_world(args.file, not args.no_ground)
-    gui.record(world, args.output, args.seconds, args.fps, width, height, args.camera)
+    gui.record(world, args.output, args.seconds, args.fps, args.camera, args.size)
     print(args.output)

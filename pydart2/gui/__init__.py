@@ -16,10 +16,11 @@ if TYPE_CHECKING:
     from pydart2.gui import opengl as opengl
     from pydart2.gui import pyqt5 as pyqt5
     from pydart2.gui import viewer as viewer
+    from pydart2.gui.moving_cameras import between, follow, orbit
     from pydart2.gui.offscreen import OffscreenRenderer, render
-    from pydart2.gui.recorder import record
+    from pydart2.gui.recorder import Movie, record
 
-__all__ = ["Camera", "OffscreenRenderer", "Trackball", "record", "render"]
+__all__ = ["Camera", "Movie", "OffscreenRenderer", "Trackball", "between", "follow", "orbit", "record", "render"]
 
 _MODULES = ("glut", "opengl", "pyqt5", "viewer")
 
@@ -27,8 +28,10 @@ _MODULES = ("glut", "opengl", "pyqt5", "viewer")
 def __getattr__(name: str) -> object:
     if name in ("OffscreenRenderer", "render"):
         return getattr(import_module("pydart2.gui.offscreen"), name)
-    if name == "record":
-        return import_module("pydart2.gui.recorder").record
+    if name in ("Movie", "record"):
+        return getattr(import_module("pydart2.gui.recorder"), name)
+    if name in ("between", "follow", "orbit"):
+        return getattr(import_module("pydart2.gui.moving_cameras"), name)
     if name == "side_panel":
         return import_module("pydart2.gui.pyqt5.side_panel")
     if name in _MODULES:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,51 +65,85 @@ def read_pictures(paths: Iterable[Path]) -> Iterator[Picture]:
 
 
 def write_movie(path: str | os.PathLike[str], pictures: Iterable[Picture], rate: float) -> None:
-    """Write pictures of shape (H, W, 3), uint8, as a movie with `rate` pictures a second.
-
-    The ending says the kind: mp4 and others with PyAV; gif, webp and png (animated) with Pillow.
+    """Write pictures of shape (H, W, 3), uint8, as a movie with `rate` pictures a second, as MovieWriter does.
 
     Raises
     ------
     PydartError
         If PyAV is wanted and not installed, or there are no pictures.
     """
-    frames = iter(pictures)
-    first = next(frames, None)
-    if first is None:
+    writer = MovieWriter(path, rate)
+    try:
+        for picture in pictures:
+            writer.add(picture)
+    finally:
+        writer.close()
+    if writer.count == 0:
         raise PydartError(f"no pictures for {os.fspath(path)}")
-    if Path(path).suffix.lower() in (".gif", ".webp", ".png"):
-        _write_with_pillow(path, first, frames, rate)
-    else:
-        _write_with_av(path, first, frames, rate)
 
 
-def _write_with_pillow(path: str | os.PathLike[str], first: Picture, rest: Iterator[Picture], rate: float) -> None:
-    from PIL import Image
+class MovieWriter:
+    """A movie that grows by pictures of shape (H, W, 3), uint8; the file is whole after close().
 
-    images = (Image.fromarray(picture) for picture in rest)
-    Image.fromarray(first).save(path, save_all=True, append_images=images, duration=round(1000.0 / rate), loop=0)
+    The ending says the kind: mp4 and others with PyAV; gif, webp and png (animated) with Pillow, which needs the memory
+    of all pictures. Without a picture there is no file.
+
+    Attributes
+    ----------
+    count : int
+        How many pictures there are.
+
+    Raises
+    ------
+    PydartError
+        If PyAV is wanted and not installed.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], fps: float) -> None:
+        self.path, self.fps, self.count = os.fspath(path), fps, 0
+        self._images: list[Any] = []
+        self._container: Any = None
+        self._av: Any = None if Path(path).suffix.lower() in (".gif", ".webp", ".png") else _import_av()
+
+    def add(self, picture: Picture) -> None:
+        """Add a picture; pictures of another size than the first are brought to it."""
+        if self._av is not None:
+            self._encode(picture)
+        else:
+            from PIL import Image
+
+            self._images.append(Image.fromarray(picture))
+        self.count += 1
+
+    def close(self) -> None:
+        """Write what is left."""
+        if self._container is not None:
+            self._container.mux(self._stream.encode())
+            self._container.close()
+            self._container = None
+        elif self._images:
+            first, *rest = self._images
+            duration = round(1000.0 / self.fps)
+            first.save(self.path, save_all=True, append_images=rest, duration=duration, loop=0)
+            self._images = []
+
+    def _encode(self, picture: Picture) -> None:
+        height, width = (side - side % 2 for side in picture.shape[:2])  # H.264 halves the colours' resolution
+        if self._container is None:
+            from fractions import Fraction
+
+            self._container = self._av.open(self.path, "w")
+            self._stream = self._container.add_stream("libx264", rate=Fraction(self.fps).limit_denominator(1000))
+            self._stream.width, self._stream.height, self._stream.pix_fmt = width, height, "yuv420p"
+        frame = self._av.VideoFrame.from_ndarray(picture, format="rgb24")
+        if picture.shape[:2] != (self._stream.height, self._stream.width):  # odd, or a window has changed its size
+            frame = frame.reformat(self._stream.width, self._stream.height)
+        self._container.mux(self._stream.encode(frame))
 
 
-def _write_with_av(path: str | os.PathLike[str], first: Picture, rest: Iterator[Picture], rate: float) -> None:
-    from fractions import Fraction
-
+def _import_av() -> Any:
     try:
         import av
     except ImportError:
         raise PydartError("mp4 movies need PyAV: pip install 'pydart2[video]'; or write a .gif") from None
-    height, width = (side - side % 2 for side in first.shape[:2])  # H.264 halves the colours' resolution
-    with av.open(os.fspath(path), "w") as container:
-        stream = container.add_stream("libx264", rate=Fraction(rate).limit_denominator(1000))
-        stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
-        for picture in _chain(first, rest):
-            frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
-            if picture.shape != (height, width, 3):  # odd, or the window has changed its size
-                frame = frame.reformat(width, height)
-            container.mux(stream.encode(frame))
-        container.mux(stream.encode())
-
-
-def _chain(first: Picture, rest: Iterator[Picture]) -> Iterator[Picture]:
-    yield first
-    yield from rest
+    return av

@@ -49,6 +49,11 @@ def look(world: Any, aspect: float = 1.0, view: str = "auto") -> Camera:
     return replace(camera, near=min(0.01, 0.01 * distance), far=max(100.0, 4.0 * distance))
 
 
+def middle_of(world: Any) -> NDArray[np.float64]:
+    """The middle of what look() sees, shape (3,), m."""
+    return np.asarray(_extent(_scene_of(world)).mean(axis=0))
+
+
 def floor_of(world: Any) -> Item | None:
     """A floor to be drawn under all that a world shows now; None where a body of it is a floor, or nothing is there."""
     scene = _scene_of(world)

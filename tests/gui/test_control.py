@@ -146,7 +146,7 @@ def test_captures_are_numbered_and_emptied(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", ["gif", "mp4"])
 def test_records_are_in_real_time(cubes: pydart2.World, tmp_path: Path, kind: str) -> None:
     path = tmp_path / f"cubes.{kind}"
-    pydart2.gui.record(cubes, path, seconds=0.5, rate=20.0, width=161, height=121)
+    pydart2.gui.record(cubes, path, seconds=0.5, fps=20.0, size=(161, 121))
     assert cubes.t == pytest.approx(0.5)
     if kind == "gif":
         with Image.open(path) as movie:
@@ -167,7 +167,7 @@ def test_a_record_of_user_code_that_raises_says_so(tmp_path: Path, capsys: pytes
 
     world = Broken(0.001, "./data/skel/cubes.skel")
     with pytest.raises(pydart2.SimulationError, match="no such gain"):
-        pydart2.gui.record(world, tmp_path / "x.gif", seconds=0.1, width=64, height=48)
+        pydart2.gui.record(world, tmp_path / "x.gif", seconds=0.1, size=(64, 48))
     capsys.readouterr()
 
 

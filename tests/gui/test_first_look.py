@@ -75,7 +75,7 @@ def test_the_floor_of_a_movie_stays(tmp_path: Path) -> None:
     world = pydart2.World(0.001)
     world.set_gravity([0.0, 0.0, -9.81])
     world.add_skeleton(BOX)
-    pydart2.gui.record(world, tmp_path / "fall.gif", seconds=0.4, rate=10, width=64, height=48)
+    pydart2.gui.record(world, tmp_path / "fall.gif", seconds=0.4, fps=10, size=(64, 48))
     with Image.open(tmp_path / "fall.gif") as movie:
         pictures = [np.asarray(frame.convert("RGB"), float) for frame in ImageSequence.Iterator(movie)]
     assert np.abs(pictures[-1] - pictures[0]).max() > 50.0
