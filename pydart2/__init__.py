@@ -39,6 +39,7 @@ from pydart2.manager import init, set_verbose, verbose
 from pydart2.marker import Marker
 from pydart2.recording import Recording
 from pydart2.resources import data_files, data_path
+from pydart2.run import Run
 from pydart2.shape import Shape
 from pydart2.shapenode import ShapeNode
 from pydart2.skel_vector import SkelVector
@@ -88,6 +89,7 @@ __all__ = [
     "ScrewJoint",
     "Shape",
     "ShapeNode",
+    "Run",
     "SimpleFrame",
     "SimulationError",
     "SkelVector",

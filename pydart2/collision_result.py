@@ -77,6 +77,31 @@ class CollisionResult:
         return self._look().rows.copy()
 
     @property
+    def points(self) -> NDArray[np.float64]:
+        """Where the contacts are, world frame, shape (n, 3), m."""
+        return self._look().rows[:, 0:3].copy()
+
+    @property
+    def forces(self) -> NDArray[np.float64]:
+        """The forces on the first bodies, world frame, shape (n, 3), N."""
+        return self._look().rows[:, 3:6].copy()
+
+    @property
+    def normals(self) -> NDArray[np.float64]:
+        """Unit normals towards the first bodies, world frame, shape (n, 3)."""
+        return self._look().rows[:, 12:15].copy()
+
+    @property
+    def depths(self) -> NDArray[np.float64]:
+        """Penetration depths, shape (n,), m."""
+        return self._look().rows[:, 15].copy()
+
+    @property
+    def bodies(self) -> NDArray[np.int_]:
+        """Ids of skeleton and body of the first, then of the second, shape (n, 4); -1 where there is none."""
+        return self._look().rows[:, 6:10].astype(int)
+
+    @property
     def contacts(self) -> list[Contact]:
         """The contacts in the engine's order."""
         return self._look().contacts

@@ -51,6 +51,11 @@ class Contacts:
         ids = rows[:, 6:10].astype(int)
         self.ids = np.where(turned[:, None], ids[:, [2, 3, 0, 1]], ids)
 
+    @property
+    def bodies(self) -> NDArray[np.int_]:
+        """The same as `ids`, shape (n, 4)."""
+        return self.ids
+
     def __len__(self) -> int:
         return len(self._rows)
 

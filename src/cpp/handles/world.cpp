@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
+#include <limits>
 
 #include "base/checks.hpp"
 #include "base/errors.hpp"
@@ -31,8 +32,8 @@ dart::simulation::WorldPtr make_world(double time_step)
 
 void record(WorldRecord& world)
 {
-  const auto& frame
-      = world.recording.add(static_cast<std::size_t>(num_states(world)), num_contacts(world), world.layout);
+  const auto states = static_cast<std::size_t>(num_states(world));
+  const auto& frame = world.recording.add(states, num_contacts(world), world.layout, world.world->getTime());
   write_states(world, frame.state);
   write_contacts(world, frame.contacts());
   for (const auto& skeleton : world.skeletons)
@@ -512,6 +513,28 @@ void WorldHandle::frame_states(long index, Output& out) const
 {
   const auto& frame = kept_frame(world(), index);
   std::copy(frame.state, frame.contacts(), out.vector(static_cast<long>(frame.num_states)));
+}
+
+void WorldHandle::recorded_times(Output& out) const
+{
+  const auto& recording = world().recording;
+  const long first = recording.first_frame();
+  auto times = vector(out, recording.num_frames() - first);
+  for (long i = 0; i < times.size(); ++i)
+    times[i] = recording.find(first + i)->time;
+}
+
+void WorldHandle::recorded_states(Output& out) const
+{
+  const auto& record = world();
+  const long first = record.recording.first_frame();
+  auto states = matrix(out, record.recording.num_frames() - first, num_states(record));
+  states.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (long i = 0; i < states.rows(); ++i) {
+    const Frame& frame = *record.recording.find(first + i);
+    if (frame.layout == record.layout)
+      std::copy(frame.state, frame.contacts(), states.row(i).data());
+  }
 }
 
 void WorldHandle::frame_contacts(long index, Output& out) const

@@ -146,6 +146,12 @@ public:
   bool set_frame(long index);
   void frame_states(long index, Output& out) const;
   void frame_contacts(long index, Output& out) const;
+
+  /// The times of all kept frames.
+  void recorded_times(Output& out) const;
+
+  /// The states of all kept frames, as rows; NaN where a skeleton was not there yet, and where another has gone since.
+  void recorded_states(Output& out) const;
   void clear_recording();
   void record_frame();
   long recording_bytes() const;

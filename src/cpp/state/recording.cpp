@@ -34,9 +34,9 @@ void Recording::clear()
   bytes_ = 0;
 }
 
-const Frame& Recording::add(std::size_t num_states, std::size_t num_contacts, int layout)
+const Frame& Recording::add(std::size_t num_states, std::size_t num_contacts, int layout, double time)
 {
-  Frame frame{nullptr, num_states, num_contacts, layout};
+  Frame frame{nullptr, num_states, num_contacts, layout, time};
   if (pieces_.empty() || pieces_.back().capacity < pieces_.back().size + frame.size()) {
     const std::size_t capacity = std::max(piece_size, frame.size());
     pieces_.push_back({std::unique_ptr<double[]>(new double[capacity]), capacity}); // not make_unique, which clears them

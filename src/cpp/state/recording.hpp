@@ -13,6 +13,7 @@ struct Frame
   double* state;
   std::size_t num_states, num_contacts;
   int layout; ///< WorldRecord::layout() when it was made.
+  double time;
 
   double* contacts() const { return state + num_states; }
   std::size_t size() const; ///< Of the numbers.
@@ -30,7 +31,7 @@ public:
   void clear();
 
   /// A frame more, whose numbers are still to be written.
-  const Frame& add(std::size_t num_states, std::size_t num_contacts, int layout);
+  const Frame& add(std::size_t num_states, std::size_t num_contacts, int layout, double time);
 
   /// Frames since the last clear(), those that are gone included.
   long num_frames() const { return first_ + static_cast<long>(frames_.size()); }
