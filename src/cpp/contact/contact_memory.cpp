@@ -10,18 +10,15 @@ namespace pydart2 {
 
 namespace {
 
-using dart::constraint::ConstraintBase;
 using engine::Rows;
 
 constexpr double part_of_size = 0.02;
 constexpr long numbers_per_entry = 12;
 constexpr std::size_t joint_part = 0, pair_part = 1; // of constraints; shapes are counted from 2
 
-/// The directions of a contact's rows, seen from the world.
-Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 6> directions(const Rows& rows)
+bool less(const ContactMemory::Key& x, const ContactMemory::Key& y)
 {
-  const auto* body = rows.bodies.bodies[0];
-  return body->getWorldTransform().linear() * rows.bodies.directions[0].bottomRows<3>();
+  return x.a != y.a ? x.a < y.a : x.b < y.b;
 }
 
 } // namespace
@@ -32,14 +29,16 @@ void ContactMemory::begin_step(const std::vector<dart::dynamics::SkeletonPtr>& s
   now_.clear();
   for (auto& entry : before_)
     entry.used = false;
-  const auto less = [](const Entry& x, const Entry& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); };
-  std::stable_sort(before_.begin(), before_.end(), less);
+  const auto sooner = [](const Entry& x, const Entry& y) { return less(x.key, y.key); };
+  if (!std::is_sorted(before_.begin(), before_.end(), sooner))
+    std::stable_sort(before_.begin(), before_.end(), sooner);
+  shapes_ = {};
   order_.clear();
   for (std::size_t i = 0; i < skeletons.size(); ++i)
     order_.emplace(skeletons[i].get(), i);
 }
 
-ContactMemory::Place ContactMemory::place(const dart::dynamics::BodyNode* body, std::size_t part) const
+double ContactMemory::place(const dart::dynamics::BodyNode* body, std::size_t part) const
 {
   if (body == nullptr)
     return -1.0;
@@ -49,7 +48,7 @@ ContactMemory::Place ContactMemory::place(const dart::dynamics::BodyNode* body, 
   return (skeleton * most + static_cast<double>(body->getIndexInSkeleton())) * 1024.0 + static_cast<double>(part % 1024);
 }
 
-ContactMemory::Place ContactMemory::shape_place(const dart::dynamics::ShapeFrame& shape) const
+double ContactMemory::shape_place(const dart::dynamics::ShapeFrame& shape) const
 {
   const auto* node = shape.asShapeNode();
   if (node == nullptr)
@@ -61,61 +60,56 @@ ContactMemory::Place ContactMemory::shape_place(const dart::dynamics::ShapeFrame
   return place(body.get(), 2 + part);
 }
 
-ContactMemory::Entry ContactMemory::entry(const ConstraintBase& constraint, const Rows& rows) const
+const ContactMemory::Shape& ContactMemory::look_at(std::size_t side, const dart::collision::CollisionObject& object)
 {
-  Entry entry;
-  if (const auto* contact = engine::contact(constraint)) {
-    const auto& shape = *contact->collisionObject1->getShapeFrame();
-    entry.a = shape_place(shape);
-    entry.b = shape_place(*contact->collisionObject2->getShapeFrame());
-    entry.point = shape.getWorldTransform().inverse() * contact->point;
-    const auto size = [](const dart::collision::CollisionObject& object) {
-      return object.getShape()->getBoundingBox().computeFullExtents().norm();
-    };
-    entry.reach = part_of_size * std::min(size(*contact->collisionObject1), size(*contact->collisionObject2));
-  } else if (rows.kind == Rows::Kind::joint) {
-    entry.a = place(rows.joint.joint->getChildBodyNode(), joint_part);
-    for (std::size_t i = 0; i < rows.joint.active.size(); ++i) // another set of rows is another constraint
-      entry.b -= rows.joint.active[i] ? std::ldexp(1.0, static_cast<int>(i)) : 0.0;
-  } else {
-    entry.a = place(rows.bodies.bodies[0], pair_part);
-    entry.b = place(rows.bodies.bodies[1], pair_part);
-  }
-  return entry;
+  auto& shape = shapes_[side];
+  if (shape.object != &object)
+    shape = {
+        &object, shape_place(*object.getShapeFrame()), object.getShape()->getBoundingBox().computeFullExtents().norm()};
+  return shape;
 }
 
-void ContactMemory::recall(const ConstraintBase& constraint, const Rows& rows, Impulses impulses)
+ContactMemory::Key ContactMemory::key(const dart::collision::Contact& contact)
 {
-  impulses.setZero();
-  const auto wanted = entry(constraint, rows);
-  const auto less = [](const Entry& x, const Entry& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); };
-  const auto range = std::equal_range(before_.begin(), before_.end(), wanted, less);
+  const auto& a = look_at(0, *contact.collisionObject1);
+  const auto& b = look_at(1, *contact.collisionObject2);
+  const auto& pose = contact.collisionObject1->getShapeFrame()->getWorldTransform();
+  return {
+      a.place, b.place, pose.linear().transpose() * (contact.point - pose.translation()),
+      part_of_size * std::min(a.size, b.size)};
+}
+
+ContactMemory::Key ContactMemory::key(const Rows& rows) const
+{
+  Key key;
+  if (rows.kind == Rows::Kind::joint) {
+    key.a = place(rows.joint.joint->getChildBodyNode(), joint_part);
+    for (std::size_t i = 0; i < rows.joint.active.size(); ++i) // another set of rows is another constraint
+      key.b -= rows.joint.active[i] ? std::ldexp(1.0, static_cast<int>(i)) : 0.0;
+  } else {
+    key.a = place(rows.bodies.bodies[0], pair_part);
+    key.b = place(rows.bodies.bodies[1], pair_part);
+  }
+  return key;
+}
+
+ContactMemory::Vector6 ContactMemory::recall(const Key& wanted)
+{
+  const auto sooner = [](const Entry& entry, const Key& key) { return less(entry.key, key); };
+  auto known = std::lower_bound(before_.begin(), before_.end(), wanted, sooner);
   Entry* nearest = nullptr;
   double least = wanted.reach;
-  for (auto known = range.first; known != range.second; ++known)
-    if (const double far = (known->point - wanted.point).norm(); !known->used && far <= least) {
+  for (; known != before_.end() && !less(wanted, known->key); ++known)
+    if (const double far = (known->key.point - wanted.point).norm(); !known->used && far <= least) {
       if (nearest != nullptr && far == least)
         continue;
       nearest = &*known;
       least = far;
     }
   if (nearest == nullptr)
-    return;
+    return Vector6::Zero();
   nearest->used = true;
-  if (engine::contact(constraint) != nullptr)
-    impulses = directions(rows).transpose() * nearest->impulses.head<3>();
-  else
-    impulses = nearest->impulses.head(impulses.size());
-}
-
-void ContactMemory::remember(const ConstraintBase& constraint, const Rows& rows, const Impulses& impulses)
-{
-  auto known = entry(constraint, rows);
-  if (engine::contact(constraint) != nullptr)
-    known.impulses.head<3>() = directions(rows) * impulses;
-  else
-    known.impulses.head(impulses.size()) = impulses;
-  now_.push_back(known);
+  return nearest->impulses;
 }
 
 std::vector<double> ContactMemory::numbers() const
@@ -123,10 +117,10 @@ std::vector<double> ContactMemory::numbers() const
   std::vector<double> out;
   out.reserve(now_.size() * numbers_per_entry);
   for (const auto& entry : now_) {
-    out.insert(out.end(), {entry.a, entry.b});
-    out.insert(out.end(), entry.point.data(), entry.point.data() + 3);
+    out.insert(out.end(), {entry.key.a, entry.key.b});
+    out.insert(out.end(), entry.key.point.data(), entry.key.point.data() + 3);
     out.insert(out.end(), entry.impulses.data(), entry.impulses.data() + 6);
-    out.push_back(entry.reach);
+    out.push_back(entry.key.reach);
   }
   return out;
 }
@@ -138,11 +132,11 @@ bool ContactMemory::restore(const std::vector<double>& numbers)
   now_.assign(numbers.size() / numbers_per_entry, Entry());
   const double* in = numbers.data();
   for (auto& entry : now_) {
-    entry.a = in[0];
-    entry.b = in[1];
-    entry.point = Eigen::Map<const Eigen::Vector3d>(in + 2);
+    entry.key.a = in[0];
+    entry.key.b = in[1];
+    entry.key.point = Eigen::Map<const Eigen::Vector3d>(in + 2);
     entry.impulses = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(in + 5);
-    entry.reach = in[11];
+    entry.key.reach = in[11];
     in += numbers_per_entry;
   }
   return true;

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <dart/constraint/ConstraintBase.hpp>
+#include <array>
+#include <dart/collision/Contact.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 #include <unordered_map>
 #include <vector>
@@ -16,37 +17,50 @@ namespace pydart2 {
 class ContactMemory
 {
 public:
-  using Impulses = Eigen::Ref<Eigen::VectorXd>;
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+  /// What a constraint is found again by.
+  struct Key
+  {
+    double a = 0.0, b = 0.0; ///< Places in the world of shapes, bodies or joints.
+    Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< In the frame of the first shape.
+    double reach = 0.0; ///< m
+  };
 
   /// What was remembered in this step is now what is recalled.
   void begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons);
   void forget() { now_.clear(), before_.clear(); }
 
-  /// The impulses of a constraint's rows one step ago; zero if they are not known.
-  void recall(const dart::constraint::ConstraintBase& constraint, const engine::Rows& rows, Impulses impulses);
-  void remember(const dart::constraint::ConstraintBase& constraint, const engine::Rows& rows, const Impulses& impulses);
+  Key key(const dart::collision::Contact& contact);
+  Key key(const engine::Rows& rows) const;
+
+  /// The impulses one step ago, zero if they are not known: a contact's as a vector of the world, the others' row by row.
+  Vector6 recall(const Key& key);
+  void remember(const Key& key, const Vector6& impulses) { now_.push_back({key, impulses, false}); }
 
   /// All of it in numbers, and back; false, and nothing changes, if these are other numbers.
   std::vector<double> numbers() const;
   bool restore(const std::vector<double>& numbers);
 
 private:
-  /// Of a shape, body or joint: places in the world.
-  using Place = double;
   struct Entry
   {
-    Place a = 0.0, b = 0.0;
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    Eigen::Matrix<double, 6, 1> impulses = Eigen::Matrix<double, 6, 1>::Zero(); ///< A contact's: a vector of the world.
-    double reach = 0.0; ///< m
+    Key key;
+    Vector6 impulses = Vector6::Zero();
     bool used = false;
   };
+  struct Shape
+  {
+    const dart::collision::CollisionObject* object = nullptr;
+    double place = -1.0, size = 0.0;
+  };
 
-  Place place(const dart::dynamics::BodyNode* body, std::size_t part) const;
-  Place shape_place(const dart::dynamics::ShapeFrame& shape) const;
-  Entry entry(const dart::constraint::ConstraintBase& constraint, const engine::Rows& rows) const;
+  double place(const dart::dynamics::BodyNode* body, std::size_t part) const;
+  double shape_place(const dart::dynamics::ShapeFrame& shape) const;
+  const Shape& look_at(std::size_t side, const dart::collision::CollisionObject& object);
 
   std::vector<Entry> now_, before_; ///< In the order of the places, once they are recalled.
+  std::array<Shape, 2> shapes_; ///< Of the last contact: the next one often has the same.
   std::unordered_map<const dart::dynamics::Skeleton*, std::size_t> order_;
 };
 

@@ -17,41 +17,45 @@ using dart::constraint::ConstraintBasePtr;
 
 constexpr double same_normal = 0.99; // cosine of 8 degrees
 
+/// A contact, and its number among those that are looked at.
 struct Point
 {
-  ConstraintBasePtr constraint;
+  std::size_t number;
   const dart::collision::Contact* contact;
 };
 
 struct FacePair
 {
-  std::array<dart::dynamics::BodyNode*, 2> bodies;
   Eigen::Vector3d normal;
   std::vector<Point> points;
 };
 
-std::vector<FacePair> face_pairs(ConstrainedGroup& group)
+/// Contacts by the two bodies that touch, and these by normals.
+class FacePairs
 {
-  std::vector<FacePair> pairs;
-  std::map<std::array<dart::dynamics::BodyNode*, 2>, std::vector<std::size_t>> of_bodies; // looked up only
-  for (std::size_t i = 0; i < group.getNumConstraints(); ++i) {
-    const auto constraint = group.getConstraint(i);
-    const auto* contact = engine::contact(*constraint);
-    if (contact == nullptr)
-      continue;
-    engine::Rows rows;
-    engine::read_rows(*constraint, rows);
-    auto& known = of_bodies[rows.bodies.bodies];
-    const auto same = [&](std::size_t pair) { return pairs[pair].normal.dot(contact->normal) > same_normal; };
+public:
+  using Bodies = std::array<dart::dynamics::BodyNode*, 2>;
+
+  void add(std::size_t number, const Bodies& bodies, const dart::collision::Contact& contact)
+  {
+    auto& known = of_bodies_[bodies];
+    const auto same = [&](std::size_t pair) { return pairs[pair].normal.dot(contact.normal) > same_normal; };
     auto pair = std::find_if(known.begin(), known.end(), same);
     if (pair == known.end()) {
       pair = known.insert(pair, pairs.size());
-      pairs.push_back({rows.bodies.bodies, contact->normal, {}});
+      pairs.push_back({contact.normal, {}});
     }
-    pairs[*pair].points.push_back({constraint, contact});
+    pairs[*pair].points.push_back({number, &contact});
   }
-  return pairs;
-}
+
+  /// The numbers of those that the others make up for.
+  std::vector<std::size_t> spare() const;
+
+  std::vector<FacePair> pairs;
+
+private:
+  std::map<Bodies, std::vector<std::size_t>> of_bodies_; // looked up only
+};
 
 /// Index of the point with the largest value.
 template <class Value>
@@ -75,18 +79,54 @@ std::array<std::size_t, 4> extremal(const FacePair& pair)
   return {a, b, c, d};
 }
 
-} // namespace
-
-void keep_extremal_contacts(ConstrainedGroup& group)
+std::vector<std::size_t> FacePairs::spare() const
 {
-  for (const auto& pair : face_pairs(group)) {
+  std::vector<std::size_t> out;
+  for (const auto& pair : pairs) {
     if (pair.points.size() <= 4)
       continue;
     const auto kept = extremal(pair);
     for (std::size_t i = 0; i < pair.points.size(); ++i)
       if (std::find(kept.begin(), kept.end(), i) == kept.end())
-        group.removeConstraint(pair.points[i].constraint);
+        out.push_back(pair.points[i].number);
   }
+  return out;
+}
+
+} // namespace
+
+void keep_extremal_contacts(ConstrainedGroup& group)
+{
+  FacePairs pairs;
+  for (std::size_t i = 0; i < group.getNumConstraints(); ++i) {
+    const auto constraint = group.getConstraint(i);
+    const auto* contact = engine::contact(*constraint);
+    if (contact == nullptr)
+      continue;
+    engine::Rows rows;
+    engine::read_rows(*constraint, rows);
+    pairs.add(i, rows.bodies.bodies, *contact);
+  }
+  std::vector<ConstraintBasePtr> spare;
+  for (const auto number : pairs.spare())
+    spare.push_back(group.getConstraint(number));
+  for (const auto& constraint : spare)
+    group.removeConstraint(constraint);
+}
+
+void keep_extremal_contacts(std::vector<ContactTerms>& contacts)
+{
+  FacePairs pairs;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    pairs.add(i, contacts[i].bodies, *contacts[i].contact);
+  std::vector<bool> spare(contacts.size(), false);
+  for (const auto number : pairs.spare())
+    spare[number] = true;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (!spare[i])
+      contacts[kept++] = contacts[i];
+  contacts.resize(kept);
 }
 
 } // namespace pydart2

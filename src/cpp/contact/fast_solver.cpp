@@ -66,10 +66,12 @@ void FastConstraintSolver::set_warm_start(bool enable)
   forget();
 }
 
-void FastConstraintSolver::begin_step()
+void FastConstraintSolver::solve_step()
 {
   if (solver_ == Solver::iterative)
-    iterative_.begin_step(mSkeletons);
+    solve_by_sweeps();
+  else
+    solve();
 }
 
 std::vector<double> FastConstraintSolver::memory() const
@@ -107,12 +109,16 @@ void FastConstraintSolver::setFromOtherConstraintSolver(const ConstraintSolver& 
 void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
 {
   if (&group == &mConstrainedGroups.front())
-    shared_ = solver_ != Solver::dart && mConstrainedGroups.size() > 1
-              && !(solver_ == Solver::iterative && has_only_contacts()) && groups_share_skeletons();
+    shared_ = solver_ != Solver::dart && mConstrainedGroups.size() > 1 && groups_share_skeletons();
   if (contact_reduction_)
     keep_extremal_contacts(group);
+  solve_exactly(group);
+}
+
+void FastConstraintSolver::solve_exactly(ConstrainedGroup& group)
+{
+  check_memory(group);
   if (solver_ == Solver::dart || shared_) {
-    check_memory(group);
     remove_empty_constraints(group);
     BoxedLcpConstraintSolver::solveConstrainedGroup(group);
     return;
@@ -120,9 +126,6 @@ void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
   const auto size = static_cast<Eigen::Index>(group.getTotalDimension());
   if (size == 0)
     return;
-  if (solver_ == Solver::iterative && solve_iteratively(group))
-    return;
-  check_memory(group);
   read_terms(group);
   matrix_.read(group, mSkeletons);
   mA.resize(size, dPAD(size));
@@ -144,31 +147,6 @@ void FastConstraintSolver::check_memory(const ConstrainedGroup& group) const
        << " GB; world.contact_memory_limit is " << memory_limit_ / 1e9
        << " GB. Raise it, or set_constraint_solver(\"iterative\"), which needs no matrix";
   throw Error(Kind::simulation, text.str());
-}
-
-/// False for groups with constraints that the iterative solver does not know.
-bool FastConstraintSolver::solve_iteratively(ConstrainedGroup& group)
-{
-  if (!iterative_.read(group))
-    return false;
-  read_terms(group);
-  iterative_.solve(group, {mLo, mHi, mFIndex, mB}, mTimeStep, warm_start_, mX);
-  if (!mX.allFinite()) {
-    dterr << "[FastConstraintSolver] The contact and joint impulses are not numbers; this step has none.\n";
-    mX.setZero();
-  }
-  iterative_.apply(group, mTimeStep, mX);
-  return true;
-}
-
-/// Contacts alone never put a skeleton into two groups.
-bool FastConstraintSolver::has_only_contacts() const
-{
-  for (const auto& group : mConstrainedGroups)
-    for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
-      if (engine::contact(*group.getConstraint(i)) == nullptr)
-        return false;
-  return true;
 }
 
 /// DART finds the group of a joint's constraint by one look at a forest of skeletons that contacts have joined, so a

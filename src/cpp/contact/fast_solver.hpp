@@ -41,8 +41,8 @@ public:
 
   IterativeSolver& iterative() { return iterative_; }
 
-  /// To be called before each step.
-  void begin_step();
+  /// solve() by the chosen solver.
+  void solve_step();
 
   /// What the chosen solver remembers of the step before, and back; false, and nothing changes, if these are other
   /// numbers.
@@ -61,8 +61,12 @@ protected:
   void solveConstrainedGroup(dart::constraint::ConstrainedGroup& group) override;
 
 private:
-  bool solve_iteratively(dart::constraint::ConstrainedGroup& group);
-  bool has_only_contacts() const;
+  void solve_by_sweeps();
+  void gather();
+  void gather_from_groups();
+  void add_joint_constraints(const dart::dynamics::Skeleton& skeleton);
+  bool all_known() const;
+  void solve_exactly(dart::constraint::ConstrainedGroup& group);
   bool groups_share_skeletons();
   void check_memory(const dart::constraint::ConstrainedGroup& group) const;
   void read_terms(dart::constraint::ConstrainedGroup& group);

@@ -1,468 +1,415 @@
 #include "contact/iterative_solver.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <dart/collision/Contact.hpp>
+#include <dart/common/Console.hpp>
 #include <dart/constraint/ContactConstraint.hpp>
+#include <limits>
+#include <numeric>
 
-#include "base/checks.hpp"
-#include "base/errors.hpp"
+#include "contact/contact_reduction.hpp"
 
 namespace pydart2 {
 
 namespace {
 
-using dart::constraint::ConstrainedGroup;
 using dart::constraint::ContactConstraint;
+using dart::dynamics::BodyNode;
 using engine::Rows;
-using Friction = IterativeOptions::Friction;
 
-constexpr int none = TreeImpulses::none;
-constexpr int inner_sweeps = 10; // of one block's rows
+constexpr int none = Movers::none;
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// The velocity with which the engine takes depth away.
-double engine_correction(double depth, double time_step)
+/// An impulse at a point of the world, as a wrench in a body's frame.
+Eigen::Vector6d wrench_at(const BodyNode& body, const Eigen::Vector3d& point, const Eigen::Vector3d& impulse)
 {
-  const double over = std::max(0.0, depth - ContactConstraint::getErrorAllowance());
-  return std::min(
-      over * ContactConstraint::getErrorReductionParameter() / time_step, ContactConstraint::getMaxErrorReductionVelocity());
+  const auto& pose = body.getWorldTransform();
+  const Eigen::Vector3d place = pose.linear().transpose() * (point - pose.translation());
+  Eigen::Vector6d wrench;
+  wrench.tail<3>() = pose.linear().transpose() * impulse;
+  wrench.head<3>() = place.cross(wrench.tail<3>());
+  return wrench;
 }
 
-using Numbers = Eigen::Map<Eigen::VectorXd>;
-using ConstNumbers = Eigen::Map<const Eigen::VectorXd>;
+/// Which of a block's two parts is that of a side.
+std::size_t part_of(const std::array<Movers::Place, 2>& places, std::size_t side)
+{
+  return side == 1 && places[0].mover != none && places[0].mover != places[1].mover ? 1 : 0;
+}
 
 } // namespace
-
-Eigen::VectorXd numbers_of(const IterativeOptions& options)
-{
-  Eigen::VectorXd numbers(7);
-  numbers << options.iterations, options.tolerance, static_cast<int>(options.friction), options.split,
-      options.error_reduction, options.allowance, options.correction_speed;
-  return numbers;
-}
-
-IterativeOptions options_of(const Eigen::VectorXd& numbers)
-{
-  check::size(numbers.size(), 7, "the options of the iterative solver");
-  check::finite(VectorIn{numbers.data(), numbers.size()}, "the options of the iterative solver");
-  const auto require = [](bool good, const char* what) {
-    if (!good)
-      throw Error(Kind::value, std::string("option ") + what);
-  };
-  require(numbers[0] >= 1.0 && numbers[0] <= 1e6, "'iterations' must be from 1 to 1,000,000");
-  require(numbers[1] >= 0.0, "'tolerance' must not be negative");
-  require(numbers[4] >= 0.0 && numbers[4] <= 1.0, "'error_reduction' must be from 0 to 1");
-  require(numbers[5] >= 0.0, "'allowance' must not be negative");
-  require(numbers[6] >= 0.0, "'correction_speed' must not be negative");
-  IterativeOptions options;
-  options.iterations = static_cast<int>(numbers[0]);
-  options.tolerance = numbers[1];
-  options.friction = static_cast<Friction>(static_cast<int>(numbers[2]));
-  options.split = numbers[3] != 0.0;
-  options.error_reduction = numbers[4];
-  options.allowance = numbers[5];
-  options.correction_speed = numbers[6];
-  return options;
-}
 
 void IterativeSolver::begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons)
 {
   memory.begin_step(skeletons);
+  reader_.begin();
+  contacts_.clear();
+  constraints_.clear();
+  movers_.clear();
   corrections_.clear();
   iterations_used_ = 0;
   residual_ = 0.0;
 }
 
-bool IterativeSolver::read(ConstrainedGroup& group)
+bool IterativeSolver::knows(const dart::constraint::ConstraintBase& constraint)
 {
-  trees_.clear();
-  blocks_.assign(group.getNumConstraints(), Block());
-  bool known = true;
-  int rows = 0;
-  for (std::size_t i = 0; i < blocks_.size() && known; ++i) {
-    auto& block = blocks_[i];
-    const auto constraint = group.getConstraint(i);
-    engine::read_rows(*constraint, block.rows);
-    block.begin = rows;
-    block.size = static_cast<int>(constraint->getDimension());
-    rows += block.size;
-    if (const auto* contact = engine::contact(*constraint)) {
-      block.contact = true;
-      block.depth = contact->penetrationDepth;
-    }
-    if (block.rows.kind == Rows::Kind::joint)
-      block.bodies[0] = add(block.rows.joint.joint->getChildBodyNode(), true, known);
-    else if (block.rows.kind == Rows::Kind::bodies)
+  Rows rows;
+  engine::read_rows(constraint, rows);
+  return rows.kind != Rows::Kind::unknown;
+}
+
+void IterativeSolver::solve(double time_step, bool warm, bool reduce)
+{
+  share_slip(contacts_);
+  if (reduce)
+    keep_extremal_contacts(contacts_);
+  find_sources();
+  movers_.prepare();
+  find_islands();
+  place_velocities();
+  place_blocks();
+  fill(time_step);
+  system_.x.setZero(system_.b.size());
+  if (warm)
+    recall();
+  sweep(time_step);
+  if (warm)
+    remember();
+  apply(time_step);
+}
+
+void IterativeSolver::find_sources()
+{
+  sources_.clear();
+  rows_.resize(constraints_.size());
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    engine::read_rows(*constraints_[i], rows_[i]);
+    sources_.push_back({static_cast<int>(i), none, {}, 0});
+    if (rows_[i].kind == Rows::Kind::joint) // first: such a body is no free one
+      sources_.back().places[0] = movers_.add_joint(*rows_[i].joint.joint->getChildBodyNode());
+  }
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (rows_[i].kind == Rows::Kind::bodies)
       for (const std::size_t side : {0, 1})
-        block.bodies[side] = add(block.rows.bodies.bodies[side], false, known);
+        sources_[i].places[side] = movers_.add(rows_[i].bodies.bodies[side]);
+  BodyNode* bodies[2] = {nullptr, nullptr}; // contacts of a pair follow each other
+  std::array<Movers::Place, 2> places;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    for (const std::size_t side : {0, 1})
+      if (bodies[side] != contacts_[i].bodies[side])
+        places[side] = movers_.add(bodies[side] = contacts_[i].bodies[side]);
+    sources_.push_back({none, static_cast<int>(i), places, 0});
+  }
+  const auto moves_nothing = [](const Source& source) { return source.places[0].mover == none && source.places[1].mover == none; };
+  sources_.erase(std::remove_if(sources_.begin(), sources_.end(), moves_nothing), sources_.end());
+}
+
+/// Sorts the sources by what they move together.
+void IterativeSolver::find_islands()
+{
+  std::vector<int> root(static_cast<std::size_t>(movers_.size()));
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&root](int mover) {
+    auto i = static_cast<std::size_t>(mover);
+    while (root[i] != static_cast<int>(i))
+      i = static_cast<std::size_t>(root[i] = root[static_cast<std::size_t>(root[i])]);
+    return i;
+  };
+  for (const auto& source : sources_)
+    if (source.places[0].mover != none && source.places[1].mover != none)
+      root[find(source.places[1].mover)] = static_cast<int>(find(source.places[0].mover));
+  system_.islands.clear();
+  std::vector<int> numbers(root.size(), none);
+  for (auto& source : sources_) {
+    int& number = numbers[find(source.places[source.places[0].mover == none].mover)];
+    if (number == none) {
+      number = static_cast<int>(system_.islands.size());
+      system_.islands.emplace_back();
+    }
+    source.island = number;
+  }
+  island_of_.resize(root.size());
+  for (std::size_t mover = 0; mover < root.size(); ++mover)
+    island_of_[mover] = numbers[find(static_cast<int>(mover))];
+  std::stable_sort(sources_.begin(), sources_.end(), [](const Source& a, const Source& b) { return a.island < b.island; });
+}
+
+void IterativeSolver::place_velocities()
+{
+  const auto island = [this](int mover) -> BlockSystem::Island* {
+    const int number = island_of_[static_cast<std::size_t>(mover)];
+    return number == none ? nullptr : &system_.islands[static_cast<std::size_t>(number)];
+  };
+  for (int mover = 0; mover < movers_.size(); ++mover)
+    if (auto* its = island(mover)) {
+      movers_.set_start(mover, its->size);
+      its->size += movers_.dofs(mover);
+    }
+  int size = 0;
+  for (auto& each : system_.islands) {
+    each.start = size;
+    size += each.size;
+  }
+  for (int mover = 0; mover < movers_.size(); ++mover)
+    if (const auto* its = island(mover))
+      movers_.set_start(mover, its->start + movers_.start(mover));
+  system_.velocities.setZero(size);
+}
+
+void IterativeSolver::place_blocks()
+{
+  system_.blocks.clear();
+  int rows = 0;
+  std::size_t data = 0;
+  for (const auto& source : sources_) {
+    Block block;
+    block.row = rows;
+    block.data = data;
+    block.contact = source.contact != none;
+    if (block.contact)
+      block.size = contacts_[static_cast<std::size_t>(source.contact)].has_friction() ? 3 : 1;
     else
-      known = false;
-  }
-  if (known)
-    place_joints();
-  return known;
-}
-
-/// Number of a body, `none` if no impulse moves it.
-int IterativeSolver::add(dart::dynamics::BodyNode* body, bool joint, bool& known)
-{
-  if (body == nullptr || (!joint && !body->isReactive()))
-    return none;
-  if (body->getSkeleton()->getNumSoftBodyNodes() > 0) { // their point masses move on their own
-    known = false;
-    return none;
-  }
-  const int number = trees_.add(*body);
-  trees_.need(number, 0);
-  return number;
-}
-
-void IterativeSolver::place_joints()
-{
-  trees_.prepare();
-  starts_.resize(static_cast<std::size_t>(trees_.size()));
-  tree_parts_.clear();
-  int rows = 0;
-  for (int body = 0; body < trees_.size(); ++body) {
-    const auto tree = static_cast<std::size_t>(trees_.tree(body));
-    tree_parts_.resize(std::max(tree_parts_.size(), tree + 1));
-    starts_[static_cast<std::size_t>(body)] = tree_parts_[tree].size;
-    tree_parts_[tree].size += trees_.dofs(body);
-  }
-  for (auto& part : tree_parts_) {
-    part.start = rows;
-    rows += part.size;
-  }
-  velocities_.setZero(rows);
-}
-
-void IterativeSolver::push(const Block& block, int row)
-{
-  if (block.rows.kind == Rows::Kind::bodies) {
+      block.size = static_cast<int>(constraints_[static_cast<std::size_t>(source.constraint)]->getDimension());
     for (const std::size_t side : {0, 1})
-      if (block.bodies[side] != none)
-        trees_.push(block.bodies[side], block.rows.bodies.directions[side].col(row));
-    return;
+      if (const int mover = source.places[side].mover; mover != none) {
+        const auto part = part_of(source.places, side);
+        block.starts[part] = movers_.start(mover);
+        block.sizes[part] = movers_.dofs(mover);
+      }
+    auto& island = system_.islands[static_cast<std::size_t>(source.island)];
+    if (island.rows == 0) {
+      island.first = static_cast<int>(system_.blocks.size());
+      island.row = rows;
+    }
+    rows += block.size;
+    data += block.numbers();
+    system_.blocks.push_back(block);
+    island.last = static_cast<int>(system_.blocks.size());
+    island.rows = rows - island.row;
   }
-  const auto& active = block.rows.joint.active;
-  std::size_t dof = 0;
-  for (int before = row; !active[dof] || before-- > 0;)
-    ++dof;
-  trees_.push_joint(block.bodies[0], static_cast<int>(dof));
-  if (const int start = starts_[static_cast<std::size_t>(block.bodies[0])]; trees_.dofs(block.bodies[0]) > 0)
-    J_[block.data + static_cast<std::size_t>(start) + dof + static_cast<std::size_t>(row * block.parts[0].size)] = 1.0;
+  system_.terms.resize(data);
+  for (auto* numbers : {&system_.lo, &system_.hi, &system_.b, &system_.mixing})
+    numbers->resize(rows);
 }
 
-/// Rows, columns of M^-1 J' and the square of A of a block.
-void IterativeSolver::fill(Block& block, double time_step)
+void IterativeSolver::fill(double time_step)
 {
-  const auto [a, b] = block.bodies;
-  std::array<int, 2> trees{a == none ? none : trees_.tree(a), b == none ? none : trees_.tree(b)};
-  const bool one_tree = trees[0] == trees[1];
-  for (const std::size_t side : {0, 1})
-    if (trees[side] != none && !(side == 1 && one_tree))
-      block.parts[side] = tree_parts_[static_cast<std::size_t>(trees[side])];
-  const int length = block.parts[0].size + block.parts[1].size;
-  block.data = J_.size();
-  J_.resize(J_.size() + static_cast<std::size_t>(length * block.size), 0.0);
-  Y_.resize(J_.size(), 0.0);
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+    if (system_.blocks[i].contact)
+      fill_contact(system_.blocks[i], sources_[i], time_step);
+    else
+      fill_constraint(system_.blocks[i], sources_[i], time_step);
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    auto& block = system_.blocks[i];
+    block.force_mixing = block.contact ? ContactConstraint::getConstraintForceMixing()
+                                       : rows_[static_cast<std::size_t>(sources_[i].constraint)].force_mixing;
+    if (block.contact)
+      block.depth = contacts_[static_cast<std::size_t>(sources_[i].contact)].contact->penetrationDepth;
+  }
+}
+
+/// Rows and right-hand sides of a contact.
+void IterativeSolver::fill_contact(const Block& block, const Source& source, double time_step)
+{
+  const auto& terms = contacts_[static_cast<std::size_t>(source.contact)];
+  const auto& point = terms.contact->point;
+  auto b = system_.b.segment(block.row, block.size);
+  b.setZero();
+  const auto is_tree = [this](const Movers::Place& place) { return place.mover != none && !movers_.free(place.mover); };
+  if (is_tree(source.places[0]) || is_tree(source.places[1]))
+    fill_tree_contact(block, source);
+  for (const std::size_t side : {0, 1}) {
+    const auto& place = source.places[side];
+    const double sign = side == 0 ? 1.0 : -1.0;
+    if (place.mover != none && movers_.free(place.mover)) {
+      const int part = static_cast<int>(part_of(source.places, side));
+      double *J = system_.J(block, part), *Y = system_.Y(block, part);
+      for (int row = 0; row < block.size; ++row, J += 6, Y += 6) {
+        movers_.point_row(place.mover, point, sign * terms.directions[static_cast<std::size_t>(row)], J, Y);
+        b[row] -= movers_.speed(place.mover, J);
+      }
+    } else if (const auto* body = terms.bodies[side]; body != nullptr && !body->getSpatialVelocity().isZero(0.0)) {
+      for (int row = 0; row < block.size; ++row)
+        b[row] -= sign * wrench_at(*body, point, terms.directions[static_cast<std::size_t>(row)]).dot(body->getSpatialVelocity());
+    }
+  }
+  b[0] = parting_speed(terms, b[0], options.split ? 0.0 : engine_correction(terms.contact->penetrationDepth, time_step));
   for (int row = 0; row < block.size; ++row) {
-    push(block, row);
-    const auto at = block.data + static_cast<std::size_t>(row * length);
-    const std::array<std::size_t, 2> places{at, one_tree ? at : at + static_cast<std::size_t>(block.parts[0].size)};
-    if (block.rows.kind == Rows::Kind::bodies)
-      for (const std::size_t side : {0, 1})
-        if (block.bodies[side] != none)
-          trees_.add_generalised(
-              block.bodies[side], block.rows.bodies.directions[side].col(row), starts_, J_.data() + places[side]);
-    trees_.solve(a, b, 0);
-    for (const std::size_t side : {0, 1})
-      if (block.parts[side].size > 0)
-        for (int body = trees_.first(trees[side]); body != none; body = trees_.next(body))
-          for (int dof = 0; dof < trees_.dofs(body); ++dof)
-            Y_[places[side] + static_cast<std::size_t>(starts_[static_cast<std::size_t>(body)] + dof)]
-                = trees_.joint_velocity_change(body, dof);
-  }
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const RowMajor> J(J_.data() + block.data, block.size, length), Y(Y_.data() + block.data, block.size, length);
-  block.W = J * Y.transpose();
-  block.mixing = block.W.diagonal() * block.rows.force_mixing;
-  if (block.contact)
-    for (int row = 1; row < block.size; ++row)
-      block.mixing[row] += block.rows.bodies.slip[static_cast<std::size_t>(row - 1)] / time_step;
-  block.W.diagonal() += block.mixing;
-  block.movable = block.W.diagonal().minCoeff() > 0.0;
-  if (block.movable)
-    block.inverse = block.W.inverse();
-}
-
-double IterativeSolver::read_velocity(const Block& block, int row) const
-{
-  const auto [first, second] = block.parts;
-  const double* J = J_.data() + block.data + static_cast<std::size_t>(row * (first.size + second.size));
-  double sum = ConstNumbers(J, first.size).dot(velocities_.segment(first.start, first.size));
-  if (second.size > 0)
-    sum += ConstNumbers(J + first.size, second.size).dot(velocities_.segment(second.start, second.size));
-  return sum;
-}
-
-void IterativeSolver::change_velocity(const Block& block, int row, double impulse)
-{
-  const auto [first, second] = block.parts;
-  const double* Y = Y_.data() + block.data + static_cast<std::size_t>(row * (first.size + second.size));
-  velocities_.segment(first.start, first.size) += impulse * ConstNumbers(Y, first.size);
-  if (second.size > 0)
-    velocities_.segment(second.start, second.size) += impulse * ConstNumbers(Y + first.size, second.size);
-}
-
-/// Takes the engine's correction of depth out of the right-hand sides; a bounce, which the engine prefers to it where it
-/// is faster, stays.
-void IterativeSolver::separate_corrections(RowTerms& terms, double time_step)
-{
-  for (const auto& block : blocks_) {
-    if (!block.contact)
-      continue;
-    double approach = 0.0;
-    for (const std::size_t side : {0, 1})
-      if (const auto* body = block.rows.bodies.bodies[side])
-        approach -= block.rows.bodies.directions[side].col(0).dot(body->getSpatialVelocity());
-    double& b = terms.b[block.begin];
-    if (b - approach <= engine_correction(block.depth, time_step) + 1e-12)
-      b = approach;
+    const auto tangent = static_cast<std::size_t>(row - 1);
+    system_.lo[block.row + row] = row == 0 ? 0.0 : -terms.friction[tangent];
+    system_.hi[block.row + row] = row == 0 ? unbounded : terms.friction[tangent];
+    system_.mixing[block.row + row] = row == 0 ? 0.0 : terms.slip[tangent] / time_step;
   }
 }
 
-void IterativeSolver::solve(
-    ConstrainedGroup& group, RowTerms terms, double time_step, bool warm, Eigen::VectorXd& x)
+/// Rows of a contact of bodies some of which are parts of trees.
+void IterativeSolver::fill_tree_contact(const Block& block, const Source& source)
 {
-  J_.clear();
-  Y_.clear();
-  x.setZero();
-  for (auto& block : blocks_)
-    fill(block, time_step);
-  if (options.split)
-    separate_corrections(terms, time_step);
-  for (std::size_t i = 0; i < blocks_.size() && warm; ++i) {
-    const auto& block = blocks_[i];
-    memory.recall(*group.getConstraint(i), block.rows, x.segment(block.begin, block.size));
-  }
-  frozen_.setZero(options.friction == Friction::engine ? x.size() : 0);
-  if (options.friction == Friction::engine) { // first without friction
-    Eigen::VectorXd normal = x;
-    sweep_until_done(terms, normal);
-    frozen_ = normal;
-  }
-  sweep_until_done(terms, x);
-  residual_ = std::max(residual_, measure(terms, x));
-  for (std::size_t i = 0; i < blocks_.size() && warm; ++i) {
-    const auto& block = blocks_[i];
-    memory.remember(*group.getConstraint(i), block.rows, x.segment(block.begin, block.size));
-  }
-  if (options.split)
-    find_corrections(terms, time_step);
-}
-
-void IterativeSolver::sweep_until_done(const RowTerms& terms, Eigen::VectorXd& x)
-{
-  velocities_.setZero();
-  for (const auto& block : blocks_) {
-    auto part = SmallVector(x.segment(block.begin, block.size));
-    project(block, terms, part);
-    x.segment(block.begin, block.size) = part;
-    for (int row = 0; row < block.size; ++row)
-      change_velocity(block, row, part[row]);
-  }
-  Eigen::VectorXd along_x = Eigen::VectorXd::Zero(x.size()), along_velocities = Eigen::VectorXd::Zero(velocities_.size());
-  Eigen::VectorXd last_x, last_velocities;
-  double last_square = 0.0;
-  int sweep = 0;
-  while (sweep < options.iterations) {
-    last_x = x;
-    last_velocities = velocities_;
-    double change = 0.0;
-    for (const auto& block : blocks_)
-      change = std::max(change, solve_block(block, terms, x));
-    if (++sweep == options.iterations || change <= options.tolerance)
-      break; // what is handed out is within its bounds
-    last_x = x - last_x;
-    last_velocities = velocities_ - last_velocities;
-    const double square = last_x.squaredNorm(), share = sweep == 1 ? 0.0 : square / last_square;
-    last_square = square;
-    if (share > 1.0) {
-      along_x.setZero();
-      along_velocities.setZero();
-      continue;
-    }
-    x += share * along_x;
-    velocities_ += share * along_velocities;
-    along_x = share * along_x + last_x;
-    along_velocities = share * along_velocities + last_velocities;
-  }
-  iterations_used_ = std::max(iterations_used_, sweep);
-}
-
-/// Bounds of a row, where a friction row follows the impulses x of its block.
-void IterativeSolver::bound(
-    const Block& block, int row, const RowTerms& terms, const SmallVector& x, double& lo, double& hi) const
-{
-  const int all = block.begin + row, normal = terms.findex[all];
-  lo = terms.lo[all];
-  hi = terms.hi[all];
-  if (normal < 0)
-    return;
-  const double force = frozen_.size() > 0 ? frozen_[normal] : x[normal - block.begin];
-  lo *= std::abs(force);
-  hi *= std::abs(force);
-}
-
-void IterativeSolver::project(const Block& block, const RowTerms& terms, SmallVector& x) const
-{
-  const bool cone = block.contact && block.size == 3 && options.friction == Friction::cone;
-  for (int row = 0; row < (cone ? 1 : block.size); ++row) {
-    double lo, hi;
-    bound(block, row, terms, x, lo, hi);
-    x[row] = std::clamp(x[row], lo, hi);
-  }
-  if (!cone)
-    return;
-  double lo, first, second;
-  bound(block, 1, terms, x, lo, first);
-  bound(block, 2, terms, x, lo, second);
-  if (first <= 0.0 || second <= 0.0) {
-    x[1] = x[2] = 0.0;
-    return;
-  }
-  // An ellipse where the coefficients differ: not the nearest point of it, but that along the ray, which is on the same
-  // side and has the same fixed points for a circle.
-  if (const double out = std::hypot(x[1] / first, x[2] / second); out > 1.0) {
-    x[1] /= out;
-    x[2] /= out;
-  }
-}
-
-/// Solves the rows of a block with all others as they are; the largest change of a velocity.
-double IterativeSolver::solve_block(const Block& block, const RowTerms& terms, Eigen::VectorXd& x)
-{
-  if (!block.movable)
-    return 0.0;
-  SmallVector old = x.segment(block.begin, block.size), w(block.size);
-  for (int row = 0; row < block.size; ++row)
-    w[row] = read_velocity(block, row) + block.mixing[row] * old[row] - terms.b[block.begin + row];
-  SmallVector y = old - block.inverse * w, inside = y;
-  project(block, terms, inside);
-  if (inside != y) {
-    y = old;
-    const bool cone = block.contact && block.size == 3 && options.friction == Friction::cone;
-    for (int sweep = 0; sweep < inner_sweeps; ++sweep) {
-      const SmallVector last = y;
-      for (int row = 0; row < (cone ? 1 : block.size); ++row) {
-        double lo, hi;
-        bound(block, row, terms, y, lo, hi);
-        y[row] = std::clamp(y[row] - (w[row] + block.W.row(row).dot(y - old)) / block.W(row, row), lo, hi);
-      }
-      if (cone) {
-        const double scale = block.W(1, 1) + block.W(2, 2);
-        const double first = w[1] + block.W.row(1).dot(y - old), second = w[2] + block.W.row(2).dot(y - old);
-        y[1] -= first / scale;
-        y[2] -= second / scale;
-        project(block, terms, y);
-      }
-      if ((y - last).cwiseAbs().dot(block.W.diagonal()) <= 0.1 * options.tolerance)
-        break;
-    }
-  }
-  double change = 0.0;
+  const auto& terms = contacts_[static_cast<std::size_t>(source.contact)];
+  std::fill_n(system_.J(block, 0), block.numbers(), 0.0);
   for (int row = 0; row < block.size; ++row) {
-    const double more = y[row] - old[row];
-    if (more == 0.0)
-      continue;
-    change_velocity(block, row, more);
-    change = std::max(change, block.W(row, row) * std::abs(more));
-  }
-  x.segment(block.begin, block.size) = y;
-  return change;
-}
-
-double IterativeSolver::measure(const RowTerms& terms, const Eigen::VectorXd& x) const
-{
-  double largest = 0.0;
-  for (const auto& block : blocks_) {
-    if (!block.movable)
-      continue;
-    const SmallVector now = x.segment(block.begin, block.size);
-    for (int row = 0; row < block.size; ++row) {
-      const double w = read_velocity(block, row) + block.mixing[row] * now[row] - terms.b[block.begin + row];
-      SmallVector next = now;
-      next[row] -= w / block.W(row, row);
-      double lo, hi;
-      bound(block, row, terms, now, lo, hi);
-      if (block.contact && row > 0 && options.friction == Friction::cone)
-        project(block, terms, next);
-      else
-        next[row] = std::clamp(next[row], lo, hi);
-      largest = std::max(largest, block.W(row, row) * std::abs(next[row] - now[row]));
-    }
-  }
-  return largest;
-}
-
-/// Velocities that take away, for one step, what is too deep: of the normal rows, and such that constraints without a
-/// limit of force keep what they hold.
-void IterativeSolver::find_corrections(const RowTerms& terms, double time_step)
-{
-  const auto deep = [this](const Block& block) { return block.contact && block.depth > options.allowance; };
-  if (std::none_of(blocks_.begin(), blocks_.end(), deep))
-    return;
-  velocities_.setZero();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(terms.b.size());
-  double change = INFINITY;
-  for (int sweep = 0; sweep < options.iterations && change > options.tolerance; ++sweep) {
-    change = 0.0;
-    for (const auto& block : blocks_)
-      for (int row = 0; row < (block.contact ? 1 : block.size); ++row) {
-        const int all = block.begin + row;
-        if (!(block.W(row, row) > 0.0) || (std::isfinite(terms.lo[all]) && std::isfinite(terms.hi[all])))
-          continue;
-        double wanted = 0.0;
-        if (block.contact) {
-          const double over = block.depth - options.allowance;
-          wanted = over < 0.0 ? over / time_step
-                              : std::min(options.error_reduction * over / time_step, options.correction_speed);
-        }
-        const double w = read_velocity(block, row) + block.mixing[row] * x[all] - wanted;
-        const double more = std::clamp(x[all] - w / block.W(row, row), terms.lo[all], terms.hi[all]) - x[all];
-        change_velocity(block, row, more);
-        x[all] += more;
-        change = std::max(change, block.W(row, row) * std::abs(more));
-      }
-  }
-  for (int body = 0; body < trees_.size(); ++body) {
-    const int start = tree_parts_[static_cast<std::size_t>(trees_.tree(body))].start + starts_[static_cast<std::size_t>(body)];
-    if (const Eigen::VectorXd u = velocities_.segment(start, trees_.dofs(body)); u.size() > 0 && u.allFinite() && !u.isZero(0.0))
-      corrections_.push_back({trees_.node(body).getParentJoint(), u, {}});
-  }
-}
-
-void IterativeSolver::apply(ConstrainedGroup& group, double time_step, Eigen::VectorXd& x) const
-{
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const auto& block = blocks_[i];
-    auto& constraint = *group.getConstraint(i);
-    double* impulse = x.data() + block.begin;
-    if (!engine::store_force(constraint, impulse, time_step)) {
-      constraint.applyImpulse(impulse);
-      constraint.excite();
-      continue;
-    }
+    std::array<Eigen::Vector6d, 2> wrenches{};
+    std::array<double*, 2> J{}, Y{};
     for (const std::size_t side : {0, 1}) {
-      if (block.bodies[side] == none)
-        continue;
-      auto& body = *block.rows.bodies.bodies[side];
-      const Eigen::Vector6d sum = block.rows.bodies.directions[side] * x.segment(block.begin, block.size);
-      body.setConstraintImpulse(body.getConstraintImpulse() + sum);
-      body.getSkeleton()->setImpulseApplied(true);
+      const auto part = part_of(source.places, side);
+      J[side] = system_.J(block, static_cast<int>(part)) + row * block.sizes[part];
+      Y[side] = system_.Y(block, static_cast<int>(part)) + row * block.sizes[part];
+      if (source.places[side].mover != none)
+        wrenches[side] = (side == 0 ? 1.0 : -1.0)
+                         * wrench_at(*terms.bodies[side], terms.contact->point, terms.directions[static_cast<std::size_t>(row)]);
+    }
+    movers_.wrench_row(source.places, wrenches, J, Y);
+  }
+}
+
+void IterativeSolver::fill_constraint(const Block& block, const Source& source, double time_step)
+{
+  const auto& rows = rows_[static_cast<std::size_t>(source.constraint)];
+  std::fill_n(system_.J(block, 0), block.numbers(), 0.0);
+  int dof = -1;
+  for (int row = 0; row < block.size; ++row) {
+    std::array<double*, 2> J{}, Y{};
+    for (const int part : {0, 1}) {
+      J[static_cast<std::size_t>(part)] = system_.J(block, part) + row * block.sizes[static_cast<std::size_t>(part)];
+      Y[static_cast<std::size_t>(part)] = system_.Y(block, part) + row * block.sizes[static_cast<std::size_t>(part)];
+    }
+    if (rows.kind == Rows::Kind::joint) {
+      while (!rows.joint.active[static_cast<std::size_t>(++dof)]) {
+      }
+      movers_.joint_row(source.places[0], dof, J[0], Y[0]);
+      continue;
+    }
+    const std::array<double*, 2> side_J{J[0], J[part_of(source.places, 1)]}, side_Y{Y[0], Y[part_of(source.places, 1)]};
+    std::array<Eigen::Vector6d, 2> wrenches{};
+    for (const std::size_t side : {0, 1})
+      if (source.places[side].mover != none)
+        wrenches[side] = rows.bodies.directions[side].col(row);
+    movers_.wrench_row(source.places, wrenches, side_J, side_Y);
+  }
+  double x[6], w[6] = {};
+  int findex[6] = {-1, -1, -1, -1, -1, -1};
+  dart::constraint::ConstraintInfo info{};
+  info.x = x;
+  info.lo = system_.lo.data() + block.row;
+  info.hi = system_.hi.data() + block.row;
+  info.b = system_.b.data() + block.row;
+  info.w = w;
+  info.findex = findex;
+  info.invTimeStep = 1.0 / time_step;
+  constraints_[static_cast<std::size_t>(source.constraint)]->getInformation(&info);
+  system_.mixing.segment(block.row, block.size).setZero();
+}
+
+void IterativeSolver::recall()
+{
+  keys_.clear();
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const auto& block = system_.blocks[i];
+    auto x = system_.x.segment(block.row, block.size);
+    if (!block.contact) {
+      keys_.push_back(memory.key(rows_[static_cast<std::size_t>(sources_[i].constraint)]));
+      x = memory.recall(keys_.back()).head(block.size);
+      continue;
+    }
+    const auto& terms = contacts_[static_cast<std::size_t>(sources_[i].contact)];
+    keys_.push_back(memory.key(*terms.contact));
+    const Eigen::Vector3d impulse = memory.recall(keys_.back()).head<3>();
+    for (int row = 0; row < block.size; ++row)
+      x[row] = impulse.dot(terms.directions[static_cast<std::size_t>(row)]);
+  }
+}
+
+void IterativeSolver::remember()
+{
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const auto& block = system_.blocks[i];
+    const auto x = system_.x.segment(block.row, block.size);
+    Eigen::Vector6d impulses = Eigen::Vector6d::Zero();
+    if (!block.contact)
+      impulses.head(block.size) = x;
+    else
+      for (int row = 0; row < block.size; ++row)
+        impulses.head<3>()
+            += x[row] * contacts_[static_cast<std::size_t>(sources_[i].contact)].directions[static_cast<std::size_t>(row)];
+    memory.remember(keys_[i], impulses);
+  }
+}
+
+void IterativeSolver::sweep(double time_step)
+{
+  Sweeps sweeps(system_, options);
+  sweeps.prepare();
+  for (const auto& island : system_.islands) {
+    const auto swept = sweeps.solve(island);
+    iterations_used_ = std::max(iterations_used_, swept.sweeps);
+    residual_ = std::max(residual_, swept.residual);
+  }
+  if (!system_.x.allFinite() || !system_.velocities.allFinite()) {
+    dterr << "[IterativeSolver] The contact and joint impulses are not numbers; this step has none.\n";
+    system_.x.setZero();
+    system_.velocities.setZero();
+  } else if (options.split) {
+    find_corrections(time_step, sweeps);
+  }
+}
+
+void IterativeSolver::find_corrections(double time_step, Sweeps& sweeps)
+{
+  corrected_.setZero(system_.velocities.size());
+  bool any = false;
+  for (const auto& island : system_.islands)
+    any |= sweeps.find_corrections(island, time_step, corrected_);
+  if (any)
+    movers_.each_joint(corrected_, [this](dart::dynamics::Joint& joint, const Eigen::VectorXd& change) {
+      if (change.allFinite())
+        corrections_.push_back({&joint, change, {}});
+    });
+}
+
+void IterativeSolver::apply(double time_step)
+{
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const auto& block = system_.blocks[i];
+    const auto& source = sources_[i];
+    if (block.contact) {
+      apply_contact(block, source, time_step);
+    } else if (const auto& rows = rows_[static_cast<std::size_t>(source.constraint)]; rows.kind == Rows::Kind::joint) {
+      auto& constraint = *constraints_[static_cast<std::size_t>(source.constraint)];
+      constraint.applyImpulse(system_.x.data() + block.row);
+      constraint.excite();
+    } else {
+      for (const std::size_t side : {0, 1})
+        if (source.places[side].mover != none)
+          apply_wrench(
+              source.places[side], *rows.bodies.bodies[side],
+              rows.bodies.directions[side] * system_.x.segment(block.row, block.size));
     }
   }
+}
+
+void IterativeSolver::apply_contact(const Block& block, const Source& source, double time_step)
+{
+  const auto& terms = contacts_[static_cast<std::size_t>(source.contact)];
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
+  for (int row = 0; row < block.size; ++row)
+    impulse += system_.x[block.row + row] * terms.directions[static_cast<std::size_t>(row)];
+  terms.contact->force = impulse / time_step;
+  for (const std::size_t side : {0, 1})
+    if (const auto& place = source.places[side]; place.mover != none && !movers_.free(place.mover))
+      apply_wrench(place, *terms.bodies[side], wrench_at(*terms.bodies[side], terms.contact->point, side == 0 ? impulse : -impulse));
+}
+
+/// For the engine, which gives trees their velocities; those of free bodies are known.
+void IterativeSolver::apply_wrench(Movers::Place place, BodyNode& body, const Eigen::Vector6d& wrench) const
+{
+  if (movers_.free(place.mover))
+    return;
+  body.setConstraintImpulse(body.getConstraintImpulse() + wrench);
+  body.getSkeleton()->setImpulseApplied(true);
+}
+
+void IterativeSolver::move_free_bodies(double time_step)
+{
+  movers_.move_free(system_.velocities, time_step);
 }
 
 void IterativeSolver::add_corrections()

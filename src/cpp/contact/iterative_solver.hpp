@@ -1,54 +1,19 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
-#include <dart/constraint/ConstrainedGroup.hpp>
+#include <dart/collision/CollisionResult.hpp>
+#include <dart/constraint/ConstraintBase.hpp>
 #include <dart/dynamics/Skeleton.hpp>
-#include <vector>
 
+#include "contact/block_system.hpp"
 #include "contact/contact_memory.hpp"
-#include "dynamics/tree_impulses.hpp"
-#include "engine/engine_access.hpp"
+#include "contact/contact_terms.hpp"
+#include "contact/movers.hpp"
 
 namespace pydart2 {
 
-/// Settings of the iterative solver.
-struct IterativeOptions
-{
-  enum class Friction {
-    pyramid, ///< Each tangent within mu times the normal impulse.
-    cone,    ///< Both together.
-    engine   ///< Each tangent within mu times what the normal impulse is without friction.
-  };
-
-  int iterations = 50;         ///< Sweeps over all rows, at most.
-  double tolerance = 1e-6;     ///< m/s, rad/s: the residual at which the sweeps end.
-  Friction friction = Friction::pyramid;
-  bool split = true;           ///< Depth is taken away by moving bodies, not by velocities (else as the engine does).
-  double error_reduction = 0.2; ///< The part of the depth that goes in a step.
-  double allowance = 1e-4;      ///< m: the depth that stays.
-  double correction_speed = 1.0; ///< m/s: at most this fast.
-};
-
-/// Iterations, tolerance, friction, split, error reduction, allowance, correction speed.
-Eigen::VectorXd numbers_of(const IterativeOptions& options);
-
-/// ValueError for numbers that cannot be.
-IterativeOptions options_of(const Eigen::VectorXd& numbers);
-
-/// The rows of a group: A x = b + w as in BoxedLcp, A not given.
-struct RowTerms
-{
-  const Eigen::VectorXd &lo, &hi;
-  const Eigen::VectorXi& findex;
-  Eigen::VectorXd& b;
-};
-
-/// Block Gauss-Seidel with projection (Moreau and Jean, as in Acary and Brogliato, Numerical Methods for Nonsmooth
-/// Dynamical Systems, 2008, chapter 13): each constraint's rows are solved as a block, one after the other, and change
-/// the velocities of the joints that they move at once. A row is a vector over the joints of its trees, and its column of M^-1 J' another, so a sweep costs
-/// what the rows cost; there is no matrix over a group. After a sweep the impulses go on in the direction in which the
-/// sweeps take them, as in conjugate gradients (Silcowitz, Niebe and Erleben, The Visual Computer 26, 2010).
+/// Solves contacts and constraints by sweeps (block_system.hpp), in time that grows with their number: a row is a vector
+/// over the velocities of what it moves, its column of M^-1 J' another, and there is no matrix over a group. Contacts
+/// are taken as the detector has them; the engine's constraints that are not contacts are read.
 class IterativeSolver
 {
 public:
@@ -56,21 +21,28 @@ public:
 
   void begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons);
 
-  /// False, and nothing is done, if there are constraints or bodies in the group that it does not know.
-  bool read(dart::constraint::ConstrainedGroup& group);
+  /// Whether it knows a constraint that is not a contact.
+  static bool knows(const dart::constraint::ConstraintBase& constraint);
 
-  /// The impulses of a group that was read, which are remembered for the next step.
-  void solve(dart::constraint::ConstrainedGroup& group, RowTerms terms, double time_step, bool warm, Eigen::VectorXd& x);
+  /// What the next solve() is about; a constraint without rows is left out.
+  void add(const dart::constraint::ConstraintBasePtr& constraint)
+  {
+    if (constraint->getDimension() > 0)
+      constraints_.push_back(constraint);
+  }
+  void add(dart::collision::Contact& contact) { contacts_.push_back(reader_.read(contact)); }
 
-  /// Hands the impulses to the bodies and the forces to the contacts.
-  void apply(dart::constraint::ConstrainedGroup& group, double time_step, Eigen::VectorXd& x) const;
+  /// Finds the impulses, which are remembered for the next step, and hands them to the trees; the contacts get their
+  /// forces. Free bodies have theirs when move_free_bodies() is called.
+  void solve(double time_step, bool warm, bool reduce);
+  void move_free_bodies(double time_step);
 
   /// Adds to the velocities of joints what takes depth away, for the time of an integration of positions; and takes it
   /// off, bit for bit.
   void add_corrections();
   void take_off_corrections();
 
-  /// Of the last step: of all groups the largest. The residual of a row is what a step of projection changes of it,
+  /// Of the last step: of all islands the largest. The residual of a row is what a step of projection changes of it,
   /// W |x - P(x - w / W)| with its diagonal element W, in m/s or rad/s.
   int iterations_used() const { return iterations_used_; }
   double residual() const { return residual_; }
@@ -78,26 +50,13 @@ public:
   ContactMemory memory;
 
 private:
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
-  using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
-
-  /// A row's part at one tree: at velocities_[start], `size` of them.
-  struct Part
+  using Block = BlockSystem::Block;
+  /// What a block is made of: a constraint, or a contact.
+  struct Source
   {
-    int start = 0, size = 0;
-  };
-  struct Block
-  {
-    engine::Rows rows;
-    std::array<int, 2> bodies{TreeImpulses::none, TreeImpulses::none};
-    std::array<Part, 2> parts;
-    int begin = 0, size = 0; ///< Rows.
-    std::size_t data = 0;    ///< In J_ and Y_: row after row, part after part.
-    bool contact = false;
-    double depth = 0.0;
-    Small W, inverse; ///< Its square of A.
-    SmallVector mixing; ///< The part of A's diagonal that is not M^-1.
-    bool movable = false;
+    int constraint = -1, contact = -1;
+    std::array<Movers::Place, 2> places{};
+    int island = 0;
   };
   struct Correction
   {
@@ -105,27 +64,32 @@ private:
     Eigen::VectorXd velocity, saved;
   };
 
-  int add(dart::dynamics::BodyNode* body, bool joint, bool& known);
-  void place_joints();
-  void fill(Block& block, double time_step);
-  void push(const Block& block, int row);
-  void separate_corrections(RowTerms& terms, double time_step);
-  double read_velocity(const Block& block, int row) const;
-  void change_velocity(const Block& block, int row, double impulse);
-  void sweep_until_done(const RowTerms& terms, Eigen::VectorXd& x);
-  double solve_block(const Block& block, const RowTerms& terms, Eigen::VectorXd& x);
-  void project(const Block& block, const RowTerms& terms, SmallVector& x) const;
-  void bound(const Block& block, int row, const RowTerms& terms, const SmallVector& x, double& lo, double& hi) const;
-  double measure(const RowTerms& terms, const Eigen::VectorXd& x) const;
-  void find_corrections(const RowTerms& terms, double time_step);
+  void find_sources();
+  void find_islands();
+  void place_velocities();
+  void place_blocks();
+  void fill(double time_step);
+  void fill_contact(const Block& block, const Source& source, double time_step);
+  void fill_tree_contact(const Block& block, const Source& source);
+  void fill_constraint(const Block& block, const Source& source, double time_step);
+  void recall();
+  void remember();
+  void sweep(double time_step);
+  void apply(double time_step);
+  void apply_contact(const Block& block, const Source& source, double time_step);
+  void apply_wrench(Movers::Place place, dart::dynamics::BodyNode& body, const Eigen::Vector6d& wrench) const;
+  void find_corrections(double time_step, Sweeps& sweeps);
 
-  TreeImpulses trees_;
-  std::vector<Block> blocks_;
-  std::vector<int> starts_;      ///< Of each body's joint in velocities_.
-  std::vector<Part> tree_parts_; ///< Of each tree.
-  std::vector<double> J_, Y_;
-  Eigen::VectorXd velocities_;   ///< Changes by the impulses.
-  Eigen::VectorXd frozen_;       ///< Normal impulses that bound friction; empty: those of the moment.
+  ContactReader reader_;
+  std::vector<ContactTerms> contacts_;
+  std::vector<dart::constraint::ConstraintBasePtr> constraints_;
+  std::vector<engine::Rows> rows_; ///< Of the constraints.
+  Movers movers_;
+  std::vector<Source> sources_; ///< In the order of the blocks.
+  std::vector<int> island_of_; ///< Of each mover.
+  BlockSystem system_;
+  std::vector<ContactMemory::Key> keys_;
+  Eigen::VectorXd corrected_;
   std::vector<Correction> corrections_;
   int iterations_used_ = 0;
   double residual_ = 0.0;

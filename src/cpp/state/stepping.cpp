@@ -223,8 +223,7 @@ void solve_constraints(WorldRecord& record, double time)
   check_limits(record);
   const auto lock = ode ? lock_ode() : std::unique_lock<OdeMutex>();
   native_group(solver); // the order of the shapes
-  fast_solver(*record.world).begin_step();
-  solver.solve();
+  fast_solver(*record.world).solve_step();
   const auto most = solver.getCollisionOption().maxNumContacts;
   if (!record.told_of_contact_limit && solver.getLastCollisionResult().getNumContacts() >= most) {
     record.told_of_contact_limit = true;
@@ -333,8 +332,12 @@ void phases(WorldRecord& record)
       item->watch->check_velocities(end);
     }
   }
-  auto& corrections = fast_solver(world).iterative();
-  corrections.add_corrections();
+  auto& iterative = fast_solver(world).iterative();
+  const bool sweeps = fast_solver(world).solver() == Solver::iterative;
+  if (sweeps) {
+    iterative.move_free_bodies(dt);
+    iterative.add_corrections();
+  }
   for (const auto& item : record.skeletons) {
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
@@ -345,7 +348,8 @@ void phases(WorldRecord& record)
       skeleton.integratePositions(dt);
     item->watch->check_positions(end);
   }
-  corrections.take_off_corrections();
+  if (sweeps)
+    iterative.take_off_corrections();
 }
 
 /// As Skeleton::clearExternalForces(), which locks a pointer and marks its caches for every body, only for those that

@@ -1,0 +1,340 @@
+#include "contact/block_system.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace pydart2 {
+
+namespace {
+
+using Friction = IterativeOptions::Friction;
+
+constexpr int inner_sweeps = 10; // of one block's rows
+
+} // namespace
+
+/// A block of R rows at parts of A and B velocities; Eigen::Dynamic for any number.
+template <int R, int A, int B>
+struct Sweeps::View
+{
+  static constexpr int most = R == Eigen::Dynamic ? 6 : R;
+  static constexpr bool both = B != 0;
+  template <int N>
+  using Rows = Eigen::Map<Eigen::Matrix<double, R, N, N == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
+  template <int N>
+  using Segment = Eigen::Map<Eigen::Matrix<double, N, 1>>;
+  using Vector = Eigen::Matrix<double, R, 1, Eigen::ColMajor, most, 1>;
+  using Square = Eigen::Map<Eigen::Matrix<double, R, R>>;
+  static constexpr int second = both ? B : 1; // Eigen has no maps of nothing
+
+  View(BlockSystem& system, const Block& block)
+    : block(block),
+      Ja(system.J(block, 0), block.size, block.sizes[0]),
+      Ya(system.Y(block, 0), block.size, block.sizes[0]),
+      Jb(system.J(block, 1), block.size, both ? block.sizes[1] : 1),
+      Yb(system.Y(block, 1), block.size, both ? block.sizes[1] : 1),
+      va(system.velocities.data() + block.starts[0], block.sizes[0]),
+      vb(system.velocities.data() + block.starts[1], both ? block.sizes[1] : 1),
+      W(system.W(block), block.size, block.size),
+      inverse(system.W(block) + block.size * block.size, block.size, block.size),
+      x(system.x.data() + block.row, block.size),
+      b(system.b.data() + block.row, block.size),
+      mixing(system.mixing.data() + block.row, block.size)
+  {}
+
+  Vector velocity() const
+  {
+    Vector sum = Ja * va;
+    if constexpr (both)
+      sum.noalias() += Jb * vb;
+    return sum;
+  }
+
+  template <class Change>
+  void change(const Change& impulses)
+  {
+    va.noalias() += Ya.transpose() * impulses;
+    if constexpr (both)
+      vb.noalias() += Yb.transpose() * impulses;
+  }
+
+  double velocity(int row) const
+  {
+    double sum = Ja.row(row).dot(va);
+    if constexpr (both)
+      sum += Jb.row(row).dot(vb);
+    return sum;
+  }
+
+  void change(int row, double impulse)
+  {
+    va += impulse * Ya.row(row).transpose();
+    if constexpr (both)
+      vb += impulse * Yb.row(row).transpose();
+  }
+
+  const Block& block;
+  Rows<A> Ja, Ya;
+  Rows<second> Jb, Yb;
+  Segment<A> va;
+  Segment<second> vb;
+  Square W, inverse;
+  Eigen::Map<Eigen::Matrix<double, R, 1>> x, b, mixing;
+};
+
+/// Contacts with friction of bodies that are free, and all else.
+template <class Do>
+auto Sweeps::with_view(const Block& block, const Do& act)
+{
+  if (block.size == 3 && block.sizes[0] == 6) {
+    if (block.sizes[1] == 0) {
+      View<3, 6, 0> view(system_, block);
+      return act(view);
+    }
+    if (block.sizes[1] == 6) {
+      View<3, 6, 6> view(system_, block);
+      return act(view);
+    }
+  }
+  View<Eigen::Dynamic, Eigen::Dynamic, Eigen::Dynamic> view(system_, block);
+  return act(view);
+}
+
+void Sweeps::prepare()
+{
+  for (auto& block : system_.blocks)
+    with_view(block, [&block](auto& view) {
+      view.W.noalias() = view.Ja * view.Ya.transpose();
+      if constexpr (std::decay_t<decltype(view)>::both)
+        view.W.noalias() += view.Jb * view.Yb.transpose();
+      view.mixing += block.force_mixing * view.W.diagonal();
+      view.W.diagonal() += view.mixing;
+      block.movable = view.W.diagonal().minCoeff() > 0.0;
+      if (block.movable)
+        view.inverse = view.W.inverse();
+    });
+}
+
+Swept Sweeps::solve(const Island& island)
+{
+  Swept swept;
+  frozen_.resize(0);
+  if (options_.friction == Friction::engine) { // first without friction
+    const Eigen::VectorXd begun = system_.x.segment(island.row, island.rows);
+    frozen_.setZero(island.rows);
+    frozen_row_ = island.row;
+    begin(island);
+    swept.sweeps = sweep(island);
+    frozen_ = system_.x.segment(island.row, island.rows);
+    system_.x.segment(island.row, island.rows) = begun;
+  }
+  begin(island);
+  swept.sweeps = std::max(swept.sweeps, sweep(island));
+  swept.residual = measure(island);
+  return swept;
+}
+
+/// The velocities of the impulses that the sweeps begin with.
+void Sweeps::begin(const Island& island)
+{
+  system_.velocities.segment(island.start, island.size).setZero();
+  for (int i = island.first; i < island.last; ++i)
+    with_view(system_.blocks[static_cast<std::size_t>(i)], [this](auto& view) {
+      typename std::decay_t<decltype(view)>::Vector x = view.x;
+      project(view, x);
+      view.x = x;
+      view.change(x);
+    });
+}
+
+/// Until the residual is small; how often.
+int Sweeps::sweep(const Island& island)
+{
+  auto x = system_.x.segment(island.row, island.rows);
+  auto velocities = system_.velocities.segment(island.start, island.size);
+  along_x_.setZero(island.rows);
+  along_velocities_.setZero(island.size);
+  double last_square = 0.0;
+  for (int sweep = 1;; ++sweep) {
+    last_x_ = x;
+    last_velocities_ = velocities;
+    double change = 0.0;
+    for (int i = island.first; i < island.last; ++i)
+      change = std::max(change, with_view(system_.blocks[static_cast<std::size_t>(i)], [this](auto& view) {
+        return solve_block(view);
+      }));
+    if (sweep == options_.iterations || change <= options_.tolerance)
+      return sweep; // what is handed out is within its bounds
+    last_x_ = x - last_x_;
+    last_velocities_ = velocities - last_velocities_;
+    const double square = last_x_.squaredNorm(), share = sweep == 1 ? 0.0 : square / last_square;
+    last_square = square;
+    if (share > 1.0) {
+      along_x_.setZero();
+      along_velocities_.setZero();
+      continue;
+    }
+    x += share * along_x_;
+    velocities += share * along_velocities_;
+    along_x_ = share * along_x_ + last_x_;
+    along_velocities_ = share * along_velocities_ + last_velocities_;
+  }
+}
+
+/// Bounds of a row, where a friction row follows the impulses x of its block.
+template <class V, class Vector>
+void Sweeps::bounds(const V& view, int row, const Vector& x, double& lo, double& hi) const
+{
+  lo = system_.lo[view.block.row + row];
+  hi = system_.hi[view.block.row + row];
+  if (row == 0 || !view.block.contact)
+    return;
+  const double force = std::abs(frozen_.size() > 0 ? frozen_[view.block.row - frozen_row_] : x[0]);
+  lo *= force;
+  hi *= force;
+}
+
+template <class V>
+bool Sweeps::is_cone(const V& view) const
+{
+  return view.block.contact && view.block.size == 3 && options_.friction == Friction::cone;
+}
+
+template <class V, class Vector>
+void Sweeps::project(const V& view, Vector& x) const
+{
+  const bool cone = is_cone(view);
+  for (int row = 0; row < (cone ? 1 : view.block.size); ++row) {
+    double lo, hi;
+    bounds(view, row, x, lo, hi);
+    x[row] = std::clamp(x[row], lo, hi);
+  }
+  if (!cone)
+    return;
+  double lo, first, second;
+  bounds(view, 1, x, lo, first);
+  bounds(view, 2, x, lo, second);
+  if (first <= 0.0 || second <= 0.0) {
+    x[1] = x[2] = 0.0;
+    return;
+  }
+  // An ellipse where the coefficients differ: not the nearest point of it, but that along the ray, which is on the same
+  // side and has the same fixed points for a circle.
+  if (const double out = std::hypot(x[1] / first, x[2] / second); out > 1.0) {
+    x[1] /= out;
+    x[2] /= out;
+  }
+}
+
+/// Solves the rows of a block with all others as they are; the largest change of a velocity.
+template <class V>
+double Sweeps::solve_block(V& view)
+{
+  if (!view.block.movable)
+    return 0.0;
+  using Vector = typename V::Vector;
+  const Vector old = view.x, w = view.velocity() + view.mixing.cwiseProduct(old) - view.b;
+  Vector y = old - view.inverse * w, inside = y;
+  project(view, inside);
+  if (inside != y) {
+    y = old;
+    solve_inside(view, old, w, y);
+  }
+  const Vector more = y - old;
+  view.change(more);
+  view.x = y;
+  return more.cwiseAbs().cwiseProduct(view.W.diagonal()).maxCoeff();
+}
+
+/// The same where bounds hold: row by row.
+template <class V, class Vector>
+void Sweeps::solve_inside(const V& view, const Vector& old, const Vector& w, Vector& y) const
+{
+  const bool cone = is_cone(view);
+  const auto velocity = [&](int row) { return w[row] + view.W.row(row).dot(y - old); };
+  for (int sweep = 0; sweep < inner_sweeps; ++sweep) {
+    const Vector last = y;
+    for (int row = 0; row < (cone ? 1 : view.block.size); ++row) {
+      double lo, hi;
+      bounds(view, row, y, lo, hi);
+      y[row] = std::clamp(y[row] - velocity(row) / view.W(row, row), lo, hi);
+    }
+    if (cone) {
+      const double scale = view.W(1, 1) + view.W(2, 2), first = velocity(1), second = velocity(2);
+      y[1] -= first / scale;
+      y[2] -= second / scale;
+      project(view, y);
+    }
+    if ((y - last).cwiseAbs().dot(view.W.diagonal()) <= 0.1 * options_.tolerance)
+      return;
+  }
+}
+
+/// The largest residual of a row.
+double Sweeps::measure(const Island& island)
+{
+  double largest = 0.0;
+  for (int i = island.first; i < island.last; ++i)
+    if (const auto& block = system_.blocks[static_cast<std::size_t>(i)]; block.movable)
+      largest = std::max(largest, with_view(block, [this](auto& view) { return residual_of(view); }));
+  return largest;
+}
+
+template <class V>
+double Sweeps::residual_of(V& view) const
+{
+  using Vector = typename V::Vector;
+  const Vector now = view.x, w = view.velocity() + view.mixing.cwiseProduct(now) - view.b;
+  double largest = 0.0;
+  for (int row = 0; row < view.block.size; ++row) {
+    Vector next = now;
+    next[row] -= w[row] / view.W(row, row);
+    double lo, hi;
+    bounds(view, row, now, lo, hi);
+    if (row > 0 && is_cone(view))
+      project(view, next);
+    else
+      next[row] = std::clamp(next[row], lo, hi);
+    largest = std::max(largest, view.W(row, row) * std::abs(next[row] - now[row]));
+  }
+  return largest;
+}
+
+bool Sweeps::find_corrections(const Island& island, double time_step, Eigen::VectorXd& out)
+{
+  const auto first = system_.blocks.begin() + island.first, last = system_.blocks.begin() + island.last;
+  if (std::none_of(first, last, [this](const Block& block) { return block.contact && block.depth > options_.allowance; }))
+    return false;
+  system_.velocities.swap(out);
+  auto x = Eigen::VectorXd::Zero(island.rows).eval();
+  double change = INFINITY;
+  const auto solve_rows = [&](auto& view) {
+    const auto& block = view.block;
+    for (int row = 0; row < (block.contact ? 1 : block.size); ++row) {
+      const int all = block.row + row;
+      if (!(view.W(row, row) > 0.0) || (std::isfinite(system_.lo[all]) && std::isfinite(system_.hi[all])))
+        continue;
+      double wanted = 0.0;
+      if (block.contact) {
+        const double over = block.depth - options_.allowance;
+        wanted = over < 0.0 ? over / time_step : std::min(options_.error_reduction * over / time_step, options_.correction_speed);
+      }
+      double& impulse = x[all - island.row];
+      const double w = view.velocity(row) + view.mixing[row] * impulse - wanted;
+      const double more = std::clamp(impulse - w / view.W(row, row), system_.lo[all], system_.hi[all]) - impulse;
+      view.change(row, more);
+      impulse += more;
+      change = std::max(change, view.W(row, row) * std::abs(more));
+    }
+  };
+  for (int sweep = 0; sweep < options_.iterations && change > options_.tolerance; ++sweep) {
+    change = 0.0;
+    for (auto block = first; block != last; ++block)
+      with_view(*block, solve_rows);
+  }
+  system_.velocities.swap(out);
+  return true;
+}
+
+} // namespace pydart2

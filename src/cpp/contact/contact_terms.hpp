@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <dart/collision/Contact.hpp>
+#include <dart/dynamics/ShapeNode.hpp>
+#include <vector>
+
+namespace pydart2 {
+
+/// What the engine's contact constraint makes of a contact between rigid bodies, without making one.
+struct ContactTerms
+{
+  dart::collision::Contact* contact;
+  std::array<dart::dynamics::BodyNode*, 2> bodies;
+  std::array<Eigen::Vector3d, 3> directions; ///< The normal and two tangents, of the world.
+  std::array<double, 2> friction{0.0, 0.0}; ///< Coefficients along the tangents.
+  std::array<double, 2> slip{0.0, 0.0}; ///< Compliance along the tangents, m/(N s).
+  double restitution = 0.0;
+
+  bool has_friction() const;
+};
+
+/// Reads contacts one after the other; what it knows of the shapes of the last one serves the next.
+class ContactReader
+{
+public:
+  void begin() { shapes_ = {}; }
+  ContactTerms read(dart::collision::Contact& contact);
+
+private:
+  struct Shape
+  {
+    const dart::collision::CollisionObject* object = nullptr;
+    dart::dynamics::BodyNode* body = nullptr;
+    std::array<double, 2> friction{1.0, 1.0}, slip{0.0, 0.0};
+    double restitution = 0.0;
+    Eigen::Vector3d first_direction = Eigen::Vector3d::Zero(); ///< Of friction, in the world; zero: any.
+  };
+
+  static Shape shape(const dart::collision::CollisionObject& object);
+
+  std::array<Shape, 2> shapes_;
+};
+
+/// The engine's slip compliance is per pair of shapes, not per contact.
+void share_slip(std::vector<ContactTerms>& contacts);
+
+/// Right-hand side of the engine: how fast bodies that come nearer at `approach` (m/s) shall part.
+double parting_speed(const ContactTerms& contact, double approach, double correction);
+
+/// The velocity with which the engine takes depth away.
+double engine_correction(double depth, double time_step);
+
+} // namespace pydart2

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <dart/constraint/ContactConstraint.hpp>
+#include <dart/constraint/JointConstraint.hpp>
+#include <dart/constraint/JointCoulombFrictionConstraint.hpp>
+#include <dart/constraint/MimicMotorConstraint.hpp>
+
+#include "contact/contact_reduction.hpp"
+#include "contact/fast_solver.hpp"
+
+/// What the iterative solver gets: contacts as the detector has them, and of the engine's constraints those that are not
+/// contacts.
+namespace pydart2 {
+
+namespace {
+
+using dart::collision::Contact;
+using dart::constraint::ConstrainedGroup;
+using dart::constraint::ConstraintBasePtr;
+using dart::dynamics::Joint;
+using dart::dynamics::Skeleton;
+
+bool soft(const Skeleton& skeleton)
+{
+  return skeleton.getNumSoftBodyNodes() > 0; // their point masses move on their own
+}
+
+bool has_soft_body(const ConstraintBasePtr& constraint)
+{
+  engine::Rows rows;
+  engine::read_rows(*constraint, rows);
+  if (rows.kind == engine::Rows::Kind::joint)
+    return soft(*rows.joint.joint->getSkeleton());
+  const auto& bodies = rows.bodies.bodies;
+  return std::any_of(bodies.begin(), bodies.end(), [](const auto* body) {
+    return body != nullptr && soft(*body->getSkeleton());
+  });
+}
+
+} // namespace
+
+void FastConstraintSolver::solve_by_sweeps()
+{
+  iterative_.begin_step(mSkeletons);
+  for (const auto& skeleton : mSkeletons) {
+    skeleton->clearConstraintImpulses();
+    skeleton->setImpulseApplied(false);
+  }
+  if (all_known())
+    gather();
+  else
+    gather_from_groups();
+  // The native detector has no more than four points of a pair of faces.
+  const bool reduce = contact_reduction_ && mCollisionDetector->getType() != "native";
+  iterative_.solve(mTimeStep, warm_start_, reduce);
+}
+
+bool FastConstraintSolver::all_known() const
+{
+  return std::none_of(mSkeletons.begin(), mSkeletons.end(), [](const auto& skeleton) { return soft(*skeleton); })
+         && std::all_of(mManualConstraints.begin(), mManualConstraints.end(), [](const auto& constraint) {
+              return IterativeSolver::knows(*constraint);
+            });
+}
+
+/// The engine's updateConstraints() without its contact constraints.
+void FastConstraintSolver::gather()
+{
+  mActiveConstraints.clear();
+  mContactConstraints.clear();
+  mSoftContactConstraints.clear();
+  mJointConstraints.clear();
+  mMimicMotorConstraints.clear();
+  mJointCoulombFrictionConstraints.clear();
+  mConstrainedGroups.clear();
+  const auto take = [this](const ConstraintBasePtr& constraint) {
+    constraint->update();
+    if (constraint->isActive())
+      iterative_.add(constraint);
+  };
+  for (const auto& constraint : mManualConstraints)
+    take(constraint);
+  mCollisionResult.clear();
+  mCollisionGroup->collide(mCollisionOption, &mCollisionResult);
+  for (std::size_t i = 0; i < mCollisionResult.getNumContacts(); ++i)
+    if (auto& contact = mCollisionResult.getContact(i);
+        !Contact::isZeroNormal(contact.normal) && contact.penetrationDepth >= 0.0)
+      iterative_.add(contact);
+  for (const auto& skeleton : mSkeletons)
+    add_joint_constraints(*skeleton);
+  std::for_each(mJointConstraints.begin(), mJointConstraints.end(), take);
+  std::for_each(mMimicMotorConstraints.begin(), mMimicMotorConstraints.end(), take);
+  std::for_each(mJointCoulombFrictionConstraints.begin(), mJointCoulombFrictionConstraints.end(), take);
+}
+
+void FastConstraintSolver::add_joint_constraints(const Skeleton& skeleton)
+{
+  for (std::size_t i = 0; i < skeleton.getNumJoints(); ++i) {
+    auto* joint = const_cast<Joint*>(skeleton.getJoint(i));
+    if (joint->isKinematic())
+      continue;
+    for (std::size_t dof = 0; dof < joint->getNumDofs(); ++dof)
+      if (joint->getCoulombFriction(dof) != 0.0) {
+        mJointCoulombFrictionConstraints.push_back(
+            std::make_shared<dart::constraint::JointCoulombFrictionConstraint>(joint));
+        break;
+      }
+    if (joint->areLimitsEnforced() || joint->getActuatorType() == Joint::SERVO)
+      mJointConstraints.push_back(std::make_shared<dart::constraint::JointConstraint>(joint));
+    if (joint->getActuatorType() == Joint::MIMIC && joint->getMimicJoint() != nullptr)
+      mMimicMotorConstraints.push_back(std::make_shared<dart::constraint::MimicMotorConstraint>(
+          joint, joint->getMimicJoint(), joint->getMimicMultiplier(), joint->getMimicOffset()));
+  }
+}
+
+/// With the engine's constraints and groups, of which those with soft bodies or constraints of unknown kinds are solved
+/// exactly, here and now.
+void FastConstraintSolver::gather_from_groups()
+{
+  updateConstraints();
+  buildConstrainedGroups();
+  shared_ = mConstrainedGroups.size() > 1 && groups_share_skeletons();
+  for (auto& group : mConstrainedGroups) {
+    std::vector<ConstraintBasePtr> constraints;
+    for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
+      constraints.push_back(group.getConstraint(i));
+    const bool known = std::all_of(constraints.begin(), constraints.end(), [](const auto& constraint) {
+      return IterativeSolver::knows(*constraint) && !has_soft_body(constraint);
+    });
+    if (!known || shared_) {
+      if (contact_reduction_)
+        keep_extremal_contacts(group);
+      solve_exactly(group);
+      continue;
+    }
+    for (const auto& constraint : constraints)
+      if (const auto* contact = engine::contact(*constraint))
+        iterative_.add(const_cast<Contact&>(*contact)); // the engine's result
+      else
+        iterative_.add(constraint);
+  }
+}
+
+} // namespace pydart2

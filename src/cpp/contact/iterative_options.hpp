@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace pydart2 {
+
+/// Settings of the iterative solver.
+struct IterativeOptions
+{
+  enum class Friction {
+    pyramid, ///< Each tangent within mu times the normal impulse.
+    cone,    ///< Both together.
+    engine   ///< Each tangent within mu times what the normal impulse is without friction.
+  };
+
+  int iterations = 50;         ///< Sweeps over all rows, at most.
+  double tolerance = 1e-6;     ///< m/s, rad/s: the residual at which the sweeps end.
+  Friction friction = Friction::pyramid;
+  bool split = true;           ///< Depth is taken away by moving bodies, not by velocities (else as the engine does).
+  double error_reduction = 0.2; ///< The part of the depth that goes in a step.
+  double allowance = 1e-4;      ///< m: the depth that stays.
+  double correction_speed = 1.0; ///< m/s: at most this fast.
+};
+
+/// Iterations, tolerance, friction, split, error reduction, allowance, correction speed.
+Eigen::VectorXd numbers_of(const IterativeOptions& options);
+
+/// ValueError for numbers that cannot be.
+IterativeOptions options_of(const Eigen::VectorXd& numbers);
+
+} // namespace pydart2

@@ -1,0 +1,185 @@
+#include "contact/movers.hpp"
+
+#include <dart/dynamics/SoftBodyNode.hpp>
+#include <typeinfo>
+
+namespace pydart2 {
+
+using dart::dynamics::BodyNode;
+using dart::dynamics::FreeJoint;
+using Eigen::Vector3d;
+
+namespace {
+
+bool free_and_alone(const BodyNode& body)
+{
+  const auto& joint = *body.getParentJoint();
+  return body.getParentBodyNode() == nullptr && body.getNumChildBodyNodes() == 0 && typeid(joint) == typeid(FreeJoint)
+         && typeid(body) == typeid(BodyNode) && !joint.isKinematic();
+}
+
+} // namespace
+
+void Movers::clear()
+{
+  movers_.clear();
+  places_.clear();
+  trees_.clear();
+  of_tree_.clear();
+}
+
+Movers::Place Movers::add(BodyNode* body)
+{
+  if (body == nullptr)
+    return {};
+  if (const auto known = places_.find(body); known != places_.end())
+    return known->second;
+  Place place;
+  if (!body->isReactive()) {
+    // stays where it is
+  } else if (free_and_alone(*body)) {
+    place.mover = size();
+    movers_.emplace_back();
+    movers_.back().node = body;
+    movers_.back().joint = static_cast<FreeJoint*>(body->getParentJoint());
+  } else {
+    place = add_to_trees(*body);
+  }
+  places_.emplace(body, place);
+  return place;
+}
+
+Movers::Place Movers::add_joint(BodyNode& body)
+{
+  const auto known = places_.find(&body);
+  return known != places_.end() ? known->second : places_.emplace(&body, add_to_trees(body)).first->second;
+}
+
+Movers::Place Movers::add_to_trees(BodyNode& node)
+{
+  const int body = trees_.add(node);
+  trees_.need(body, 0);
+  const auto tree = static_cast<std::size_t>(trees_.tree(body));
+  of_tree_.resize(std::max(of_tree_.size(), tree + 1), none);
+  if (of_tree_[tree] == none) {
+    of_tree_[tree] = size();
+    movers_.emplace_back();
+    movers_.back().tree = static_cast<int>(tree);
+  }
+  return {of_tree_[tree], body};
+}
+
+void Movers::prepare()
+{
+  trees_.prepare();
+  starts_.resize(static_cast<std::size_t>(trees_.size()));
+  for (auto& mover : movers_)
+    if (mover.tree == none)
+      read(mover);
+    else
+      mover.size = 0;
+  for (int body = 0; body < trees_.size(); ++body) {
+    auto& size = at(of_tree_[static_cast<std::size_t>(trees_.tree(body))]).size;
+    starts_[static_cast<std::size_t>(body)] = size;
+    size += trees_.dofs(body);
+  }
+}
+
+void Movers::read(Mover& mover)
+{
+  const auto& pose = mover.node->getWorldTransform();
+  const auto& inertia = mover.node->getInertia();
+  const auto& velocity = mover.node->getSpatialVelocity();
+  mover.turn = pose.linear();
+  mover.offset = mover.turn * inertia.getLocalCOM();
+  mover.center = pose.translation() + mover.offset;
+  mover.inverse_mass = 1.0 / inertia.getMass();
+  const Eigen::Matrix3d local = inertia.getMoment().inverse();
+  mover.inverse_inertia.noalias() = mover.turn * local * mover.turn.transpose();
+  mover.velocity.head<3>() = mover.turn * velocity.head<3>();
+  mover.velocity.tail<3>() = mover.turn * velocity.tail<3>() + mover.velocity.head<3>().cross(mover.offset);
+}
+
+void Movers::point_row(int mover, const Vector3d& point, const Vector3d& direction, double* J, double* Y) const
+{
+  const auto& body = at(mover);
+  const Vector3d moment = (point - body.center).cross(direction);
+  Eigen::Map<Vector3d>(J, 3) = moment;
+  Eigen::Map<Vector3d>(J + 3, 3) = direction;
+  Eigen::Map<Vector3d>(Y, 3).noalias() = body.inverse_inertia * moment;
+  Eigen::Map<Vector3d>(Y + 3, 3) = body.inverse_mass * direction;
+}
+
+double Movers::speed(int mover, const double* J) const
+{
+  return Eigen::Map<const Vector6>(J).dot(at(mover).velocity);
+}
+
+void Movers::wrench_row(
+    const std::array<Place, 2>& places, const std::array<Vector6, 2>& wrenches, std::array<double*, 2> J,
+    std::array<double*, 2> Y)
+{
+  std::array<int, 2> bodies{none, none};
+  for (const std::size_t side : {0, 1}) {
+    const int mover = places[side].mover;
+    if (mover == none)
+      continue;
+    const auto& wrench = wrenches[side];
+    if (!free(mover)) {
+      bodies[side] = places[side].body;
+      trees_.push(bodies[side], wrench);
+      trees_.add_generalised(bodies[side], wrench, starts_, J[side]);
+      continue;
+    }
+    const auto& body = at(mover);
+    const Vector3d force = body.turn * wrench.tail<3>();
+    const Vector3d moment = body.turn * wrench.head<3>() - body.offset.cross(force);
+    Eigen::Map<Vector6>(J[side]) << moment, force;
+    Eigen::Map<Vector6>(Y[side]) << body.inverse_inertia * moment, body.inverse_mass * force;
+  }
+  trees_.solve(bodies[0], bodies[1], 0);
+  for (const std::size_t side : {0, 1})
+    if (bodies[side] != none)
+      answer_of_tree(trees_.tree(bodies[side]), Y[side]);
+}
+
+void Movers::joint_row(Place place, int dof, double* J, double* Y)
+{
+  if (trees_.dofs(place.body) == 0)
+    return;
+  trees_.push_joint(place.body, dof);
+  J[starts_[static_cast<std::size_t>(place.body)] + dof] = 1.0;
+  trees_.solve(place.body, none, 0);
+  answer_of_tree(trees_.tree(place.body), Y);
+}
+
+void Movers::answer_of_tree(int tree, double* Y) const
+{
+  for (int body = trees_.first(tree); body != none; body = trees_.next(body))
+    for (int dof = 0; dof < trees_.dofs(body); ++dof)
+      Y[starts_[static_cast<std::size_t>(body)] + dof] = trees_.joint_velocity_change(body, dof);
+}
+
+/// What the change of its velocity is for the joint of a free body.
+Movers::Vector6 Movers::joint_change(const Mover& mover, const Eigen::VectorXd& velocities) const
+{
+  const Vector3d turning = velocities.segment<3>(mover.start);
+  const Vector3d moving = velocities.segment<3>(mover.start + 3) - turning.cross(mover.offset);
+  Vector6 twist;
+  twist.head<3>() = mover.turn.transpose() * turning;
+  twist.tail<3>() = mover.turn.transpose() * moving;
+  return dart::math::AdInvT(mover.joint->getTransformFromChildBodyNode(), twist);
+}
+
+void Movers::move_free(const Eigen::VectorXd& velocities, double time_step) const
+{
+  for (const auto& mover : movers_) {
+    if (mover.tree != none)
+      continue;
+    const Vector6 change = joint_change(mover, velocities);
+    mover.joint->setVelocitiesStatic(mover.joint->getVelocitiesStatic() + change);
+    mover.joint->setAccelerationsStatic(mover.joint->getAccelerationsStatic() + change / time_step);
+  }
+}
+
+} // namespace pydart2
