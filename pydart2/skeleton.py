@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
     from pydart2.world import World
 
+_log = logging.getLogger("pydart2")
 Part = TypeVar("Part", BodyNode, Joint, Dof)
 
 
@@ -179,6 +181,21 @@ class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
         self.names = Names([dof.name for dof in self.dofs], self)
         self._pattern = SkelVector(np.zeros(len(self.dofs)), self)
         self._pattern.flags.writeable = False  # what says to the C++ layer: a new vector like this one
+
+    def set_position_limits_enforced(self, enforced: bool = True) -> None:
+        """Let all its joints stop at their position limits, or not, as the engine has it.
+
+        Joints without a limit stay as free as they are; a warning names those of one dof.
+        """
+        free = []
+        for joint in self.joints:
+            bounded = any(joint.has_position_limit(i) for i in range(joint.num_dofs()))
+            if bounded or not enforced:
+                joint.set_position_limit_enforced(enforced)
+            elif joint.num_dofs() == 1:
+                free.append(repr(joint.name))
+        if free:
+            _log.warning("skeleton %r: no position limits to enforce for joints %s", self.name, ", ".join(free))
 
     def set_root_joint_to_trans_and_euler(self) -> None:
         """Put the root under a TranslationalJoint ``root_t`` and an EulerJoint ``root_r`` (XYZ), by a massless body.

@@ -207,6 +207,7 @@ class World(WorldBuilding, Upright, Named, Assignable):
         massless: bool = False,
         engine_defaults: bool = False,
         strict: bool = False,
+        enforce_limits: bool = False,
     ) -> Skeleton:
         """Load a URDF, SDF, SKEL, MJCF or VSK file and add its skeleton.
 
@@ -234,9 +235,13 @@ class World(WorldBuilding, Upright, Named, Assignable):
             as in the engine, with a warning. True: nothing there either, for kinematics and comparisons; a step says
             what it lacks.
         engine_defaults
-            Whether each of them weighs 1 kg, and has 1 kg m² about each axis, as the engine alone loads it.
+            Whether each of them weighs 1 kg, and has 1 kg m² about each axis, as the engine alone loads it; URDF joints
+            that state no bounds then have 0 and 0.
         strict
             Whether what is a warning about the file is a LoadError.
+        enforce_limits
+            Whether its joints stop at their limits (`Skeleton.set_position_limits_enforced`); in the engine, and by
+            default, they do not.
 
         Raises
         ------
@@ -250,7 +255,10 @@ class World(WorldBuilding, Upright, Named, Assignable):
         model = read_model(filename, options)
         before = self._handle.num_skeletons()
         try:
-            return (CLASS or self.CLASS_SKELETON)(self, _filename=model)
+            skel = (CLASS or self.CLASS_SKELETON)(self, _filename=model)
+            if enforce_limits:
+                skel.set_position_limits_enforced()
+            return skel
         except BaseException:
             self._go_back(before)
             raise

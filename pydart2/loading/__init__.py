@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import math
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -21,6 +22,7 @@ from pydart2.errors import LoadError
 from pydart2.loading import files
 from pydart2.loading.checks import check, relevant, rules_of
 from pydart2.loading.mass import settle_masses
+from pydart2.loading.mending import is_unbounded, mend, mend_fields
 from pydart2.loading.readable import Readable
 from pydart2.loading.rules import URDF, URDF_WORLD, Rules
 from pydart2.loading.trial import try_model
@@ -32,6 +34,15 @@ Reader = Literal["mujoco", "engine"]
 Source = str | bytes | os.PathLike[str]
 
 MAX_INCLUDE_DEPTH = 8
+#: What the engine and we put before a name, and the elements that may be meant.
+_NAMED = re.compile(r"(\w*)\s*(?:'([^']+)'|\[([^\]]+)\])")
+_KINDS = {
+    "body": ("link", "body", "segment"),
+    "link": ("link", "body", "segment"),
+    "joint": ("joint",),
+    "shape": ("visual", "collision", "visualization_shape", "collision_shape", "geom"),
+    "skeleton": ("skeleton", "robot", "model"),
+}
 _log = logging.getLogger("pydart2")
 
 
@@ -59,7 +70,7 @@ class Options:
         Whether URDF links without ``<inertial>`` weigh nothing even where the motion then has no answer: for kinematics
         and comparisons.
     engine_defaults
-        Whether they weigh 1 kg, as the engine's own loader has it.
+        Whether they weigh 1 kg, and joints whose limits are not stated have 0 and 0, as the engine's own loader has it.
     strict
         Whether what else is a warning is a LoadError.
     """
@@ -105,7 +116,10 @@ class Model(Readable):
             raise self.document.error(self.document.root, "it has no world")
         self._try(world=True)
         with self._located():
-            return WorldHandle.load(self.source)
+            world = WorldHandle.load(self.source)
+        for index in range(world.num_skeletons()):
+            self._unbind(world, index)
+        return world
 
     def add_to(self, world: WorldHandle) -> int:
         """Add the skeleton to a world; returns its index there."""
@@ -114,7 +128,19 @@ class Model(Readable):
             raise self.document.error(self.document.root, f"it {what}")
         self._try(world=False)
         with self._located():
-            return world.add_skeleton(self.source)
+            index = world.add_skeleton(self.source)
+        self._unbind(world, index)
+        return index
+
+    def _unbind(self, world: WorldHandle, index: int) -> None:
+        """Take away the limits that stand for none."""
+        if self.document.root.tag not in ("robot", "world"):
+            return
+        skeleton = world.skeleton(index)
+        for dof in (skeleton.dof(i) for i in range(skeleton.num_dofs())):
+            if is_unbounded(dof.position_upper_limit()):
+                dof.set_position_lower_limit(-math.inf)
+                dof.set_position_upper_limit(math.inf)
 
     def _try(self, world: bool) -> None:
         reason = try_model(self.source, world, self.files) if self.safe else None
@@ -131,10 +157,15 @@ class Model(Readable):
             raise self._error(str(error)) from None
 
     def _error(self, reason: str) -> LoadError:
-        """At the line of an element that the reason names, else at that of the root."""
-        quoted = {name for names in re.findall(r"'([^']+)'|\[([^\]]+)\]", reason) for name in names if name}
-        named = (e for e in self.document.root.all() if e.attributes.get("name") in quoted)
-        return self.document.error(next(named, self.document.root), reason)
+        """At the line of the element that the reason names, else at that of the root."""
+        quoted = [(kind.lower(), a or b) for kind, a, b in _NAMED.findall(reason)]
+        elements = [e for e in self.document.root.all() if e.get("@name") or e.get("@NAME")]
+        for kind, name in quoted:  # a joint may have the name of its link
+            for element in elements:
+                if name in (element.get("@name"), element.get("@NAME")) and element.tag.lower() in _KINDS.get(kind, ()):
+                    return self.document.error(element, reason)
+        names = {name for _, name in quoted}
+        return self.document.error(next((e for e in elements if e.get("@name") in names), self.document.root), reason)
 
 
 def read_model(what: Source | Readable, options: Options | None = None) -> Readable:
@@ -231,7 +262,16 @@ class _Builder:
     def _add(self, path: str, document: Document, above: tuple[str, ...]) -> None:
         """Check a document and those that it includes."""
         rules = URDF if self.rules is URDF_WORLD and above else self.rules
+        mend_fields(document, relevant(document.root, rules), rules, self._warn)
         check(document, rules, part=rules.kind == "mjcf" and bool(above))
+        mend(
+            document,
+            relevant(document.root, rules),
+            rules,
+            self._warn,
+            lenient=self.options.missing_meshes == "warn",
+            bounds_as_engine=self.options.engine_defaults,
+        )
         self.documents[path] = document
         for element, name in files.includes(rules.kind, document):
             self._include(document, element, name, (*above, path))

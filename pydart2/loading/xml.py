@@ -97,15 +97,24 @@ class Document:
             end = self.data.rindex(b"</", element.start, element.end)
             self._edits.append((end, end, xml))
 
-    def set(self, element: Element, attribute: str, value: str) -> None:
-        """Let changed() have an attribute's new value, which needs no escapes."""
+    def set(self, element: Element, field: str, value: str) -> None:
+        """Let changed() have a new value, which needs no escapes; the field is as in get(), a child that is there."""
+        if not field.startswith("@"):
+            child = element.find(*field.split("/"))
+            if child is not None:
+                child.text = value
+                opening = _TAG.match(self.data, child.start)
+                after = opening.end() if opening else child.start
+                self._edits.append((after, self.data.rindex(b"</", child.start, child.end), value.encode()))
+            return
+        attribute = field[1:]
         element.attributes[attribute] = value
         tag = _TAG.match(self.data, element.start)
         found = re.search(rb"\s%s\s*=\s*(\"[^\"]*\"|'[^']*')" % re.escape(attribute.encode()), tag[0]) if tag else None
         place = element.start + 1 + len(element.tag.encode())
         new = f' {attribute}="{value}"'.encode()
         start, end = (element.start + found.start(), element.start + found.end()) if found else (place, place)
-        self._edits = [edit for edit in self._edits if edit[:2] != (start, end)]
+        self._edits = [edit for edit in self._edits if start == end or edit[:2] != (start, end)]
         self._edits.append((start, end, new))
 
     def changed(self) -> bytes:
@@ -141,6 +150,7 @@ def _as_utf8(data: bytes, path: str | None) -> bytes:
     except (LookupError, UnicodeError):
         _log.warning("%s is not in %s, as it should be; reading it as Latin-1", path or "the XML text", encoding)
         text = data.decode("latin-1")
+    text = text.rstrip("\0")  # as other readers do, which stop there
     if "\0" in text:
         raise LoadError.at(path, text.count("\n", 0, text.index("\0")) + 1, "it is not a text: it has a zero byte")
     utf8 = text.encode("utf-8", "replace")
