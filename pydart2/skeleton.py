@@ -206,9 +206,18 @@ class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
         self.build()
 
     def set_root_joint_to_weld(self) -> None:
-        """Weld the root to the world, where it is at q = 0."""
+        """Weld the root to the world, where it is."""
+        roots = self.root_bodynodes()  # none, or several, the engine's layer refuses
+        moved = any(dof.position() != 0.0 for root in roots for dof in root.parent_joint.dofs)
+        where = [root.world_transform() for root in roots]
         self._handle.set_root_joint_to_weld()
         self.build()
+        if moved:  # at q = 0 the engine's own numbers stay, bit for bit
+            self._place(where[0])
+
+    def _place(self, where: NDArray[np.float64]) -> None:
+        """Put the root link there, shape (4, 4), m; a root that floats is there after a reset, too."""
+        self.root_bodynode().parent_joint._handle.place(where)
 
     @property
     def controller(self) -> Controller | None:

@@ -6,7 +6,7 @@ import copy
 import logging
 import os
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydart2 import constraints, contact_forces, manager, screen
 from pydart2._native import WorldHandle
 from pydart2.assignment import Assignable
+from pydart2.building.poses import pose
 from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
@@ -208,6 +209,10 @@ class World(WorldBuilding, Upright, Named, Assignable):
         engine_defaults: bool = False,
         strict: bool = False,
         enforce_limits: bool = False,
+        position: ArrayLike | None = None,
+        orientation: ArrayLike | None = None,
+        base: Literal["auto", "fixed"] = "auto",
+        name: str | None = None,
     ) -> Skeleton:
         """Load a URDF, SDF, SKEL, MJCF or VSK file and add its skeleton.
 
@@ -242,6 +247,13 @@ class World(WorldBuilding, Upright, Named, Assignable):
         enforce_limits
             Whether its joints stop at their limits (`Skeleton.set_position_limits_enforced`); in the engine, and by
             default, they do not.
+        position, orientation
+            Where the root link is in the world: shape (3,), m; a quaternion [w, x, y, z] or a (3, 3) matrix. What is
+            not given is the file's. A base that floats is there after a reset, too.
+        base
+            ``"fixed"`` welds the root link to the world; ``"auto"`` leaves it as the file has it.
+        name
+            In place of the file's (URDF, SDF, SKEL). The second skeleton of a name gets `` (1)`` behind it.
 
         Raises
         ------
@@ -251,11 +263,21 @@ class World(WorldBuilding, Upright, Named, Assignable):
         self._handle.time()  # a world that is gone says so before the file is read
         from pydart2.loading import Options, read_model
 
-        options = Options(packages, missing_meshes, safe, False, reader, massless, engine_defaults, strict)
+        if base not in ("auto", "fixed"):
+            raise ValueError(f"base must be 'auto' or 'fixed', got {base!r}")
+        where = pose((0.0, 0.0, 0.0) if position is None else position, orientation)
+        options = Options(packages, missing_meshes, safe, False, reader, massless, engine_defaults, strict, name)
         model = read_model(filename, options)
         before = self._handle.num_skeletons()
         try:
             skel = (CLASS or self.CLASS_SKELETON)(self, _filename=model)
+            if base == "fixed":
+                skel.set_root_joint_to_weld()
+            if position is not None or orientation is not None:
+                stands = skel.root_bodynode().world_transform()
+                where[:3, 3] = stands[:3, 3] if position is None else where[:3, 3]
+                where[:3, :3] = stands[:3, :3] if orientation is None else where[:3, :3]
+                skel._place(where)
             if enforce_limits:
                 skel.set_position_limits_enforced()
             return skel

@@ -16,6 +16,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
+from xml.sax.saxutils import escape
 
 from pydart2._native import ModelSource, WorldHandle
 from pydart2.errors import LoadError
@@ -73,6 +74,8 @@ class Options:
         Whether they weigh 1 kg, and joints whose limits are not stated have 0 and 0, as the engine's own loader has it.
     strict
         Whether what else is a warning is a LoadError.
+    name
+        The skeleton's name, in place of the file's.
     """
 
     packages: Mapping[str, str | os.PathLike[str]] | None = None
@@ -83,6 +86,7 @@ class Options:
     massless: bool = False
     engine_defaults: bool = False
     strict: bool = False
+    name: str | None = None
 
 
 @dataclass
@@ -200,7 +204,11 @@ def read_model(what: Source | Readable, options: Options | None = None) -> Reada
     else:
         path = _path_of(os.fspath(what), options)
         document = parse(files.read_bytes(path), path)
+    if options.name is not None and not options.name.strip():
+        raise ValueError("name must not be empty")
     if document.root.tag == "mujoco":
+        if options.name is not None:
+            raise ValueError("name= is for the skeletons of URDF, SDF and SKEL files, not of <mujoco>")
         if options.reader == "mujoco":
             from pydart2.mjcf import MjcfModel
 
@@ -247,6 +255,8 @@ class _Builder:
 
     def build(self) -> Model:
         self._add(self.path, self.main, ())
+        if self.options.name is not None:
+            self._rename(self.options.name)
         self._settle_meshes()
         light = self._settle_masses()
         for path, document in self.documents.items():
@@ -275,6 +285,13 @@ class _Builder:
         self.documents[path] = document
         for element, name in files.includes(rules.kind, document):
             self._include(document, element, name, (*above, path))
+
+    def _rename(self, name: str) -> None:
+        root = self.main.root
+        named = root if root.tag == "robot" else root.find("model") or root.find("skeleton")
+        if named is None:
+            raise ValueError(f"name= is for the skeletons of URDF, SDF and SKEL files, not of <{root.tag}>")
+        self.main.set(named, "@name", escape(name, {'"': "&quot;"}))
 
     def _include(self, document: Document, element: Element, name: str, above: tuple[str, ...]) -> None:
         path = self.places.find(name, packed=True)
