@@ -45,7 +45,22 @@ def atlas() -> pydart2.World:
     return world
 
 
-@pytest.mark.parametrize("make", [cubes, atlas, lambda: stack(10)], ids=["cubes", "Atlas", "stack"])
+def lopsided() -> pydart2.World:
+    """Two turned boxes with their masses off their middles, hung on each other by a ball joint, on the floor."""
+    world = floor()
+    low = world.add_box((0.2, 0.2, 0.2), 1.0, (0.0, 0.0999, 0.0))
+    high = world.add_box((0.1, 0.1, 0.1), 2.0, (0.05, 0.26, 0.02))
+    for skeleton, com in ((low, (0.01, -0.02, 0.03)), (high, (-0.02, 0.01, 0.01))):
+        skeleton.bodynodes[0].set_local_com(com)
+    high.q = np.r_[0.3, -0.2, 0.5, high.q[3:]]
+    pydart2.constraints.BallJointConstraint(high.bodynodes[0], low.bodynodes[0], [0.03, 0.2, 0.01]).add_to_world(world)
+    world.step(20)
+    return world
+
+
+@pytest.mark.parametrize(
+    "make", [cubes, atlas, lambda: stack(10), lopsided], ids=["cubes", "Atlas", "stack", "lopsided"]
+)
 def test_step_is_that_of_the_exact_solver(make: Callable[[], pydart2.World]) -> None:
     ours, exact = make(), make()
     ours.set_constraint_solver("iterative", **EXACT)
