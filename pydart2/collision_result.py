@@ -98,7 +98,7 @@ class CollisionResult:
 
     @property
     def bodies(self) -> NDArray[np.int_]:
-        """Ids of skeleton and body of the first, then of the second, shape (n, 4); -1 where there is none."""
+        """Ids of skeleton and body of the first, then of the second, shape (n, 4), no unit; -1 where there is none."""
         return self._look().rows[:, 6:10].astype(int)
 
     @property

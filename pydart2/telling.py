@@ -89,7 +89,7 @@ def _count(n: int, one: str, many: str = "") -> str:
 
 
 def table_of_vector(vector: SkelVector) -> str | None:
-    """A table of names and numbers in HTML, that stays small; None for a vector without names."""
+    """A table of names and numbers in HTML, in the vector's units, that stays small; None without names."""
     keys = vector.keys
     if not keys:
         return None
