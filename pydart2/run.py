@@ -141,7 +141,7 @@ class Run:
         np.savetxt(path, table, fmt="%.17g", delimiter=",", header=header, comments="", encoding="utf-8")
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write all of it to an ``.npz`` file, without pickled objects."""
+        """Write all of it to an ``.npz`` file, without pickled objects; OSError if it cannot be written."""
         rows = list(self.contact_rows)
         parts = (
             VERSION,
@@ -160,7 +160,8 @@ class Run:
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Run:
-        """Read a file that save() wrote; ValueError if it is another file or of another version."""
+        """Read a file that save() wrote; OSError if there is none, ValueError if it is
+        another file or of another version."""
         try:
             with np.load(path, allow_pickle=False) as file:
                 parts: dict[str, Any] = {name: file[name] for name in _PARTS}

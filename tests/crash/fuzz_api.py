@@ -40,7 +40,7 @@ from oracle.models import dart_data
 from pydart2.flat import api as flat_api
 
 #: What the documentation promises; anything else is a bug.
-DOCUMENTED = (pydart2.PydartError, ValueError, TypeError, IndexError, KeyError, AttributeError, OverflowError)
+DOCUMENTED = (pydart2.PydartError, ValueError, TypeError, IndexError, KeyError, AttributeError, OverflowError, OSError)
 CALLS_PER_WORLD = 400
 MOST_SECONDS = 10.0
 #: The processes import the same package.
@@ -259,8 +259,9 @@ def run(calls: int, first: int) -> Report:
     log = Path(__file__).parents[2] / "build" / f"fuzz-{first}.log"
     log.parent.mkdir(exist_ok=True)
     for number, examples in batches(calls, first):
-        command = [sys.executable, __file__, "--work", str(number), str(examples), str(log)]
-        done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT)
+        command = [sys.executable, str(Path(__file__).resolve()), "--work", str(number), str(examples), str(log)]
+        with tempfile.TemporaryDirectory() as folder:  # for the files that calls write
+            done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT, cwd=folder)
         for line in done.stdout.splitlines():
             if line.startswith("TROUBLE "):
                 report.troubles.append(f"seed {number}: {line[8:]}")

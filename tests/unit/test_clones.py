@@ -92,14 +92,18 @@ def nested_pairs(one: pydart2.World, two: pydart2.World) -> Iterator[tuple[objec
                         yield node.shape._handle, node2.shape._handle
 
 
+OTHER_NAME = {
+    **{"XYZ": "ZYX", "ZYX": "XYZ", "FORCE": "SERVO"},
+    **{"fcl": "bullet", "dart": "fcl", "fast": "dart", "engine": "fast"},
+}
+
+
 def another(value: object) -> object:
     """A valid value that is not this one."""
     if isinstance(value, bool):
         return not value
     if isinstance(value, str):
-        return {"XYZ": "ZYX", "ZYX": "XYZ", "FORCE": "SERVO", "fcl": "bullet", "dart": "fcl", "fast": "dart"}.get(
-            value, value + " 2"
-        )
+        return OTHER_NAME.get(value, value + " 2")
     if isinstance(value, int):
         return value + 3
     array = np.asarray(value)

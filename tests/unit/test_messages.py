@@ -15,7 +15,8 @@ import pytest
 import pydart2
 from pydart2 import World
 
-FREE = "<robot name='r'><link name='l'/></robot>"  # a massless body is put above its root
+INERTIAL = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
+FREE = f"<robot name='r'><link name='l'>{INERTIAL}</link></robot>"  # a massless body is put above its root
 
 OTHER = """
 #include <chrono>
