@@ -19,6 +19,7 @@ from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError, NameNotFound
+from pydart2.queries import WorldQueries
 from pydart2.recording import Recording
 from pydart2.skeleton import Skeleton, _compute_of
 from pydart2.state import Snapshot, model_hash
@@ -84,7 +85,7 @@ def _rebuild(
     return world
 
 
-class World(WorldBuilding, Upright, Named, Assignable):
+class World(WorldBuilding, WorldQueries, Upright, Named, Assignable):
     """A simulated world.
 
     >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")
@@ -516,6 +517,7 @@ class World(WorldBuilding, Upright, Named, Assignable):
             "collision_filter",
             "_under_construction",
             "_copies_exactly",
+            "_queries",
         )
         state = {name: value for name, value in self.__dict__.items() if name not in made_anew}
         return _rebuild, (type(self), blueprint, self.collision_result.rows, recording_limit, classes), state

@@ -43,6 +43,7 @@
 %include "skeleton.i"
 %include "model_source.i"
 %include "world.i"
+%include "queries.i"
 %include "batch.i"
 
 %pythoncode %{

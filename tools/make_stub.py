@@ -36,6 +36,8 @@ ARGUMENTS = {
 IDS = re.compile(r"(w|sk|b|dof|j|m|s)id\d?|i|index|ndofs|nout|\w+_type")
 FLAT = {"verbose=True": "verbose: bool = True", "tuple of int": "tuple[int, ...]"}
 
+MADE_IN_PYTHON = ("BatchHandle", "ModelSource", "QueriesHandle", "WorldHandle")
+
 HEAD = '''"""The C++ layer: one handle per engine object. Made by tools/make_stub.py."""
 
 from typing import Any, Self, TypeVar
@@ -136,7 +138,7 @@ def classes(header: str) -> list[str]:
     ):
         methods = [stub for line in body.splitlines() if (stub := method(line))]
         shown = [m for m in methods if not re.search("::|Ref|Busy|ShapeHandle, node: ", m)]
-        shown = [m for m in shown if "__init__" not in m or name in ("WorldHandle", "BatchHandle", "ModelSource")]
+        shown = [m for m in shown if "__init__" not in m or name in MADE_IN_PYTHON]
         stubs.append(f"class {name}:\n" + "\n".join(shown) + "\n")
     return stubs
 

@@ -31,6 +31,7 @@ CLAIMS = {
     "grasp": 1,
     "gravity_compensation": 1,
     "headless_video": 2,
+    "heap": 2,
     "hello_pydart": 1,
     "ik": 1,
     "inverse_dynamics": 1,

@@ -42,6 +42,29 @@ public:
     }
   }
 
+  /// Calls `use` with each leaf of whose box, and of all boxes around it, `enters` is true.
+  template <class Enters, class Use>
+  void along(const Enters& enters, const Use& use) const
+  {
+    if (nodes_.empty())
+      return;
+    thread_local std::vector<int> kept; // neither asks a tree
+    auto& stack = kept;
+    stack.assign(1, 0);
+    while (!stack.empty()) {
+      const Node& node = nodes_[static_cast<std::size_t>(stack.back())];
+      stack.pop_back();
+      if (!enters(node.bounds))
+        continue;
+      if (node.leaf >= 0) {
+        use(node.leaf);
+      } else {
+        stack.push_back(node.right);
+        stack.push_back(node.left);
+      }
+    }
+  }
+
 private:
   struct Node
   {

@@ -1,0 +1,5 @@
+%{
+#include "handles/queries.hpp"
+%}
+
+%include "handles/queries.hpp"
