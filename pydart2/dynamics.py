@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +14,22 @@ if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
 
 Array = NDArray[np.float64]
+
+
+class InverseDynamicsDerivatives(NamedTuple):
+    """How the forces of inverse dynamics change; each of shape (ndofs, ndofs), row: force, column: what changes it."""
+
+    q: Array  #: N m or N per rad or m
+    dq: Array  #: N m or N per rad/s or m/s
+    ddq: Array  #: M, kg m² or kg
+
+
+class ForwardDynamicsDerivatives(NamedTuple):
+    """How the accelerations of forward dynamics change; each of shape (ndofs, ndofs), row: acceleration."""
+
+    q: Array  #: rad/s² or m/s² per rad or m
+    dq: Array  #: 1/s
+    tau: Array  #: Minv, 1/(kg m²) or 1/kg
 
 
 class Dynamics(TargetControl):
@@ -86,6 +102,36 @@ class Dynamics(TargetControl):
         """
         force = self._per_dof(tau, "forces") - self.c + self._passive(external, damping, springs)
         return np.asarray(np.linalg.solve(self.M, force))
+
+    def inverse_dynamics_derivatives(self, ddq: ArrayLike) -> InverseDynamicsDerivatives:
+        """Derivatives of ``M ddq + c`` in the present state, by `q`, `dq` and `ddq`, each of shape (ndofs, ndofs).
+
+        A change of q is one along dq: where a ball or free joint moves, ``integrate_positions(q, change)``, not
+        ``q + change``. Carpentier, Mansard, "Analytical derivatives of rigid body dynamics algorithms", RSS 2018.
+        External forces, dampers and springs are left out: theirs are 0, D and K. ValueError if there are soft bodies.
+
+        Parameters
+        ----------
+        ddq
+            Generalized accelerations, shape (ndofs,), rad/s² or m/s².
+        """
+        both = self._handle.dynamics().inverse_dynamics_derivatives(self._per_dof(ddq, "accelerations"))
+        return InverseDynamicsDerivatives(both[: self.ndofs], both[self.ndofs :], np.array(self.M))
+
+    def forward_dynamics_derivatives(self, tau: ArrayLike) -> ForwardDynamicsDerivatives:
+        """Derivatives of ``Minv (tau - c)`` in the present state, by `q`, `dq` and `tau`, each of shape (ndofs, ndofs).
+
+        As for inverse_dynamics_derivatives(), from which they follow.
+
+        Parameters
+        ----------
+        tau
+            Generalized forces, shape (ndofs,), N m or N.
+        """
+        ddq = self.forward_dynamics(tau, external=False, damping=False, springs=False)
+        by = self.inverse_dynamics_derivatives(ddq)
+        inverse = np.asarray(np.linalg.inv(by.ddq))
+        return ForwardDynamicsDerivatives(-inverse @ by.q, -inverse @ by.dq, inverse)
 
     def impulse_response(self, body: BodyNode, impulse: ArrayLike, offset: ArrayLike | None = None) -> Array:
         """How a blow changes dq: ``Minv J.T impulse``, shape (ndofs,), rad/s or m/s. The state does not change.

@@ -432,6 +432,13 @@ class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
         """``q1 - q2`` on the configuration manifold (log map for ball and free joints), shape (ndofs,), rad or m."""
         return self._handle.position_differences(_q1, _q2)
 
+    def integrate_positions(self, q: ArrayLike, change: ArrayLike) -> NDArray[np.float64]:
+        """`q` moved along `change`, shape (ndofs,), rad or m: the opposite of position_differences().
+
+        ``q + change`` for most joints; free and ball joints turn on from where they are (exponential map).
+        """
+        return self._handle.integrate_positions(q, change)
+
     def velocity_differences(self, _dq1: ArrayLike, _dq2: ArrayLike) -> NDArray[np.float64]:
         """``dq1 - dq2``, shape (ndofs,), rad/s or m/s."""
         return self._handle.velocity_differences(_dq1, _dq2)

@@ -131,6 +131,21 @@ def test_terms(pair: Pair) -> None:
     assert_allclose(skel.forward_dynamics(tau, damping=False, springs=False), aba, rtol=1e-8, atol=1e-8)
 
 
+def test_derivatives(pair: Pair) -> None:
+    pin, skel, model, data = pair.pin, pair.skel, pair.model, pair.data
+    theirs = pin.computeRNEADerivatives(model, data, pair.q, pair.v, pair.a)
+    for ours, matrix in zip(skel.inverse_dynamics_derivatives(pair.ddq), theirs, strict=True):
+        matrix = np.array(matrix)
+        if matrix is not theirs[0] and np.allclose(matrix, np.triu(matrix)):  # M
+            matrix = np.triu(matrix) + np.triu(matrix, 1).T
+        close(ours, matrix[np.ix_(pair.order, pair.order)])
+    tau = np.linspace(-2.0, 2.0, skel.ndofs)
+    pin.computeABADerivatives(model, data, pair.q, pair.v, pair.theirs(tau))
+    ours_forward = skel.forward_dynamics_derivatives(tau)
+    for ours, matrix in zip(ours_forward, (data.ddq_dq, data.ddq_dv, data.Minv), strict=True):
+        close(ours, np.array(matrix)[np.ix_(pair.order, pair.order)])
+
+
 def test_centre_of_mass_and_momentum(pair: Pair) -> None:
     """A welded root counts in ours, and not in theirs, so the COM is compared where the root floats."""
     pin, skel, model, data = pair.pin, pair.skel, pair.model, pair.data

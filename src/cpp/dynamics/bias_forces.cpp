@@ -16,6 +16,8 @@ const Eigen::VectorXd& BiasForces::update(const LinkTree& tree)
   if (cache.mDirty.mCoriolisAndGravityForces) {
     go_outwards(tree);
     go_inwards(tree.links, cache.mCg);
+    for (const Link& link : tree.links)
+      link.body->getSpatialVelocity(); // a body whose velocity nobody has asked for does not tell of a new one
     cache.mDirty.mCoriolisAndGravityForces = false;
   }
   return cache.mCg;

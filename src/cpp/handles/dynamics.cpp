@@ -3,6 +3,7 @@
 #include <dart/math/Geometry.hpp>
 
 #include "base/checks.hpp"
+#include "dynamics/derivatives.hpp"
 
 namespace pydart2 {
 
@@ -76,6 +77,20 @@ void DynamicsHandle::centroidal_momentum_matrix(Output& out) const
       A.col(static_cast<long>(body->getDependentGenCoordIndex(static_cast<std::size_t>(k))))
           += dart::math::dAdT(to_body, momenta.col(k));
   }
+}
+
+void DynamicsHandle::inverse_dynamics_derivatives(const VectorIn& ddq, Output& out) const
+{
+  const auto& skel = skeleton();
+  const auto n = static_cast<long>(skel.getNumDofs());
+  check::size(ddq.size, skel.getNumDofs(), "accelerations");
+  check::finite(ddq, "accelerations");
+  if (skel.getNumSoftBodyNodes() > 0)
+    throw Error(Kind::value, "skeleton '" + skel.getName() + "' has soft bodies, for which there are no derivatives");
+  const auto derivatives = pydart2::inverse_dynamics_derivatives(skel, ddq.eigen());
+  auto both = matrix(out, 2 * n, n);
+  both.topRows(n) = derivatives.by_q;
+  both.bottomRows(n) = derivatives.by_dq;
 }
 
 Vector6d DynamicsHandle::joint_wrench(long index) const

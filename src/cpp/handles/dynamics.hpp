@@ -24,6 +24,9 @@ public:
   /// Angular momentum about the centre of mass and linear momentum, per unit of velocity of each dof.
   void centroidal_momentum_matrix(Output& out) const;
 
+  /// Of M ddq + c by q, and below by dq: (2 dofs x dofs).
+  void inverse_dynamics_derivatives(const VectorIn& ddq, Output& out) const;
+
   /// What a joint transmitted to its child body in the last step, in the joint's frame on that side: moment, force.
   Vector6d joint_wrench(long index) const;
 

@@ -298,6 +298,22 @@ void SkeletonHandle::position_differences(const VectorIn& q1, const VectorIn& q2
   copy(skel.getPositionDifferences(q1.eigen(), q2.eigen()), out);
 }
 
+void SkeletonHandle::integrate_positions(const VectorIn& q, const VectorIn& velocities, Output& out) const
+{
+  auto& skel = skeleton();
+  for (const auto* numbers : {&q, &velocities}) {
+    check::size(numbers->size, dofs_.size(), "positions and velocities");
+    check::finite(*numbers, "positions and velocities");
+  }
+  const Eigen::VectorXd before = skel.getPositions(), rates = skel.getVelocities();
+  skel.setPositions(q.eigen());
+  skel.setVelocities(velocities.eigen());
+  skel.integratePositions(1.0);
+  copy(skel.getPositions(), out);
+  skel.setPositions(before);
+  skel.setVelocities(rates);
+}
+
 void SkeletonHandle::velocity_differences(const VectorIn& dq1, const VectorIn& dq2, Output& out) const
 {
   auto& skel = skeleton();

@@ -69,6 +69,7 @@ public:
 
   /// q1 - q2 and dq1 - dq2 on the configuration manifold.
   void position_differences(const VectorIn& q1, const VectorIn& q2, Output& out) const;
+  void integrate_positions(const VectorIn& q, const VectorIn& velocities, Output& out) const;
   void velocity_differences(const VectorIn& dq1, const VectorIn& dq2, Output& out) const;
 
   void position_lower_limits(Output& out) const;
