@@ -22,8 +22,14 @@ dart::dynamics::Skeleton& DynamicsHandle::with_mass() const
 
 void DynamicsHandle::aug_mass_matrix(Output& out) const
 {
-  const Eigen::MatrixXd& M = skeleton().getAugMassMatrix();
-  matrix(out, M.rows(), M.cols()) = M;
+  auto& skel = skeleton();
+  const auto dofs = skel.getDofs();
+  const double dt = skel.getTimeStep();
+  Eigen::MatrixXd sum = skel.getMassMatrix(); // the engine does not notice when what it adds changes
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    sum(static_cast<long>(i), static_cast<long>(i))
+        += dt * (dofs[i]->getDampingCoefficient() + dt * dofs[i]->getSpringStiffness());
+  matrix(out, sum.rows(), sum.cols()) = sum;
 }
 
 void DynamicsHandle::damping_forces(Output& out) const
