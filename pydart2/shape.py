@@ -213,7 +213,7 @@ class MeshShape(Shape):
     TYPE_ID = 8
 
     def scale(self) -> NDArray[np.float64]:
-        """Scale along each axis, shape (3,), dimensionless."""
+        """Scale along each axis, shape (3,), dimensionless, > 0; a model's negative ones have mirrored the corners."""
         return self._handle.scale()
 
     def path(self) -> str:

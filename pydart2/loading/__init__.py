@@ -23,7 +23,7 @@ from pydart2.errors import LoadError
 from pydart2.loading import files
 from pydart2.loading.checks import check, relevant, rules_of
 from pydart2.loading.mass import settle_masses
-from pydart2.loading.mending import is_unbounded, mend, mend_fields
+from pydart2.loading.mending import is_unbounded, mend, mend_fields, mirror
 from pydart2.loading.readable import Readable
 from pydart2.loading.rules import URDF, URDF_WORLD, Rules
 from pydart2.loading.trial import try_model
@@ -317,6 +317,8 @@ class _Builder:
             path = self.places.find(mesh.uri)
             if path is not None:
                 self.files.append(path)
+                if mirror(owner[mesh.shape], mesh.element, path):
+                    continue
                 self._redirect(mesh.uri if folder or kind != "mjcf" else "/" + mesh.uri, path)
                 continue
             self._refuse_or_warn(owner[mesh.shape], mesh)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from xml.sax.saxutils import escape
 
 from pydart2.loading.rules import Rules
 from pydart2.loading.xml import Document, Element
@@ -127,6 +128,22 @@ def _split_capsule(document: Document, capsule: Element, owner: Element) -> None
         document.remove([capsule])
     else:
         document.remove([owner])
+
+
+def mirror(document: Document, mesh: Element, path: str) -> bool:
+    """Name the mirrored file of a mesh whose scale is negative, with the scale's absolute; whether it was.
+
+    The engine takes no negative scale; mirror-x:///path is the file mirrored along x (shared_scenes.hpp).
+    """
+    fields = ("@filename", "@scale") if document.root.tag == "robot" else ("file_name", "scale")
+    fields = ("uri", "scale") if document.root.tag == "sdf" else fields
+    scales = (mesh.get(fields[1]) or "").split()
+    axes = "".join(axis for axis, scale in zip("xyz", scales, strict=False) if float(scale) < 0.0)
+    if not axes or document.root.tag == "mujoco":
+        return False
+    document.set(mesh, fields[0], escape(f"mirror-{axes}://{path}", {'"': "&quot;"}))
+    document.set(mesh, fields[1], " ".join(repr(abs(float(scale))) for scale in scales))
+    return True
 
 
 def _z_axis(roll: float, pitch: float, yaw: float) -> tuple[float, float, float]:

@@ -104,6 +104,23 @@ bool clean(const aiScene& scene, const std::string& uri)
   return kept > 0;
 }
 
+/// Mirrors corners and normals along the axes that the scheme names, and turns the triangles so that they face as before.
+void mirror(const aiScene& scene, const std::string& scheme)
+{
+  const auto sign = [&](char axis) { return scheme.find(axis, scheme.find('-')) == std::string::npos ? 1.0F : -1.0F; };
+  const aiVector3D signs(sign('x'), sign('y'), sign('z'));
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    aiMesh& mesh = *scene.mMeshes[i];
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      mesh.mVertices[v] = mesh.mVertices[v].SymMul(signs);
+      if (mesh.mNormals != nullptr)
+        mesh.mNormals[v] = mesh.mNormals[v].SymMul(signs);
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces && signs.x * signs.y * signs.z < 0.0F; ++f)
+      std::swap(mesh.mFaces[f].mIndices[1], mesh.mFaces[f].mIndices[2]);
+  }
+}
+
 /// Imported scenes and how many own each.
 class Scenes
 {
@@ -198,6 +215,8 @@ const aiScene* load(const std::string& uri, const ResourceRetrieverPtr& retrieve
     dtwarn << "[MeshShape] '" << uri << "' has no triangle\n";
     return nullptr;
   }
+  if (const auto scheme = mirror_scheme(uri); !scheme.empty())
+    mirror(*scene, scheme);
   scenes().add(uri, scene, noting->files);
   return scene;
 }
@@ -209,6 +228,12 @@ void release(const aiScene* scene)
 }
 
 } // namespace
+
+std::string mirror_scheme(const std::string& uri)
+{
+  const auto end = uri.find("://");
+  return uri.rfind("mirror-", 0) == 0 && end != std::string::npos ? uri.substr(0, end) : std::string();
+}
 
 bool take_scene(const aiScene* scene)
 {

@@ -2,7 +2,6 @@
 
 #include <assimp/scene.h>
 
-#include <dart/common/LocalResourceRetriever.hpp>
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/CapsuleShape.hpp>
@@ -18,7 +17,9 @@
 #include <iomanip>
 
 #include "base/errors.hpp"
+#include "engine/shared_scenes.hpp"
 #include "loading/built.hpp"
+#include "loading/model_source.hpp"
 
 namespace pydart2::built {
 
@@ -101,7 +102,10 @@ void write_mesh(std::ostream& out, const MeshShape& shape)
 {
   auto& mesh = const_cast<MeshShape&>(shape); // getResourceRetriever() is not const
   const auto retriever = mesh.getResourceRetriever();
-  const std::string path = retriever ? retriever->getFilePath(shape.getMeshUri2()) : std::string();
+  const auto& uri = shape.getMeshUri2();
+  std::string path = retriever ? retriever->getFilePath(uri) : std::string();
+  if (const auto scheme = mirror_scheme(uri.toString()); !path.empty() && !scheme.empty())
+    path = scheme + "://" + path;
   const Eigen::Vector3d& scale = shape.getScale();
   out << ' ' << std::quoted(path);
   write_numbers(out, {scale.x(), scale.y(), scale.z()});
@@ -114,11 +118,12 @@ void write_mesh(std::ostream& out, const MeshShape& shape)
 
 ShapePtr read_mesh_file(const std::string& path, const Eigen::Vector3d& scale)
 {
-  const auto retriever = std::make_shared<dart::common::LocalResourceRetriever>();
+  const auto retriever = make_retriever(ModelSource("built", ""));
+  const auto scheme = mirror_scheme(path);
   dart::common::Uri uri;
-  uri.mScheme = "file";
+  uri.mScheme = scheme.empty() ? "file" : scheme;
   uri.mAuthority = "";
-  uri.mPath = path;
+  uri.mPath = scheme.empty() ? path : path.substr(scheme.size() + 3);
   const aiScene* scene = MeshShape::loadMesh(uri, retriever);
   if (scene == nullptr)
     throw Error(Kind::load, "the mesh file '" + path + "' cannot be read");

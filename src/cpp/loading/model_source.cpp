@@ -8,6 +8,8 @@
 #include <istream>
 #include <sstream>
 
+#include "engine/shared_scenes.hpp"
+
 namespace pydart2 {
 
 namespace {
@@ -82,6 +84,8 @@ private:
       if (whole.compare(0, it->first.size(), it->first) == 0)
         return it->second + whole.substr(it->first.size());
     }
+    if (const auto scheme = mirror_scheme(whole); !scheme.empty())
+      return whole.substr(scheme.size() + 3);
     const std::string file = "file://"; // a path may have '?' and '#', which DART takes for parts of a URI
     if (whole.compare(0, file.size(), file) == 0)
       return whole.substr(file.size());
