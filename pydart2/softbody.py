@@ -59,6 +59,10 @@ class SoftBodyNode(BodyNode):
         """Where the points are, world frame, shape (n, 3), m."""
         return self._soft.point_world_positions()
 
+    def add_point_forces(self, forces: ArrayLike) -> None:
+        """Push the points in the next step, in addition to other forces; world axes, shape (n, 3), N."""
+        self._soft.add_point_forces(forces)
+
     def faces(self) -> NDArray[np.intp]:
         """The triangles of the skin: indices of their points, shape (f, 3)."""
         return self._soft.faces().astype(np.intp)

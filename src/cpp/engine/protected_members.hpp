@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/dynamics/PointMass.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 
 /// Protected members of DART 6.12's classes, reached as a derived class may. A version that renames one does not compile.
@@ -18,6 +19,12 @@ struct SolverMembers : dart::constraint::ConstraintSolver
 {
   static auto& detector_of(ConstraintSolver& solver) { return solver.*(&SolverMembers::mCollisionDetector); }
   static auto& group_of(ConstraintSolver& solver) { return solver.*(&SolverMembers::mCollisionGroup); }
+};
+
+/// The external force on a point of a soft body, in its body's axes.
+struct PointMembers : dart::dynamics::PointMass
+{
+  static Eigen::Vector3d& external_force(PointMass& point) { return point.*(&PointMembers::mFext); }
 };
 
 } // namespace pydart2

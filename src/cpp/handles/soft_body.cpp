@@ -80,6 +80,11 @@ void SoftBodyHandle::point_world_positions(Output& out) const
   each_point(out, [](const PointMass& point) { return point.getWorldPosition(); });
 }
 
+void SoftBodyHandle::add_point_forces(const MatrixIn& forces)
+{
+  set_each_point(forces, "forces", [](PointMass& point, const auto& force) { point.addExtForce(force); });
+}
+
 void SoftBodyHandle::faces(Output& out) const
 {
   auto rows = matrix(out, static_cast<long>(body_->getNumFaces()), 3);

@@ -27,6 +27,9 @@ public:
   void point_local_positions(Output& out) const;
   void point_world_positions(Output& out) const;
 
+  /// Forces on the points in the next step, world axes, in addition to others.
+  void add_point_forces(const MatrixIn& forces);
+
   /// Indices of the points of each triangle, as numbers.
   void faces(Output& out) const;
 

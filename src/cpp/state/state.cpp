@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "collision/detector.hpp"
 #include "contact/fast_solver.hpp"
+#include "engine/protected_members.hpp"
 #include "state/constraint_record.hpp"
 
 namespace pydart2 {
@@ -59,7 +60,8 @@ void visit_point(Archive& archive, PointMass& point)
   archive.vector([&] { return point.getPositions(); }, [&](Vector value) { point.setPositions(value); });
   archive.vector([&] { return point.getVelocities(); }, [&](Vector value) { point.setVelocities(value); });
   archive.vector([&] { return point.getAccelerations(); }, [&](Vector value) { point.setAccelerations(value); });
-  archive.vector([&] { return point.getForces(); }, [&](Vector value) { point.setForces(value); });
+  auto& force = PointMembers::external_force(point);
+  archive.vector([&] { return force; }, [&](Vector value) { force = value; });
   archive.vector(
       [&] { return point.getConstraintImpulses(); },
       [&](Vector value) { point.setConstraintImpulse(Eigen::Vector3d(value), true); });
