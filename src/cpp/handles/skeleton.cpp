@@ -36,12 +36,16 @@ void copy(const Eigen::VectorXd& values, Output& out)
 } // namespace
 
 SkeletonHandle::SkeletonHandle(WorldRef world, SkeletonRef skeleton)
-  : skeleton_(world, skeleton, skeleton->skeleton.get()),
-    dofs_(skeleton->skeleton->getDofs()),
-    state_(*skeleton->skeleton),
-    tree_(*skeleton->skeleton),
-    scratch_(static_cast<long>(dofs_.size()))
+  : skeleton_(world, skeleton, skeleton->skeleton.get())
 {
+}
+
+SkeletonHandle::Passes& SkeletonHandle::passes()
+{
+  auto& skel = skeleton();
+  if (!passes_)
+    passes_.reset(new Passes{LinkTree(skel), {}, {}});
+  return *passes_;
 }
 
 void SkeletonHandle::gather(const std::vector<const double*>& places, Output& out) const
@@ -55,16 +59,15 @@ void SkeletonHandle::gather(const std::vector<const double*>& places, Output& ou
 template <class Read>
 void SkeletonHandle::each_dof(Output& out, Read read) const
 {
-  skeleton_.get();
-  double* value = out.vector(static_cast<long>(dofs_.size()));
-  for (const DegreeOfFreedom* dof : dofs_)
+  const auto& dofs = this->dofs();
+  double* value = out.vector(static_cast<long>(dofs.size()));
+  for (const DegreeOfFreedom* dof : dofs)
     *value++ = read(*dof);
 }
 
 const Eigen::VectorXd& SkeletonHandle::per_dof(const VectorIn& values, const char* what)
 {
-  skeleton_.get();
-  check::size(values.size, dofs_.size(), what);
+  check::size(values.size, dofs().size(), what);
   check::finite(values, what);
   scratch_ = values.eigen();
   return scratch_;
@@ -186,17 +189,15 @@ TargetsHandle SkeletonHandle::targets() const
 
 std::vector<std::string> SkeletonHandle::dof_names() const
 {
-  skeleton_.get();
   std::vector<std::string> names;
-  for (const auto* dof : dofs_)
+  for (const auto* dof : dofs())
     names.push_back(dof->getName());
   return names;
 }
 
 const DofState& SkeletonHandle::state() const
 {
-  const auto& not_numbers = skeleton_.skeleton->not_numbers;
-  return not_numbers ? *not_numbers : state_;
+  return skeleton_.skeleton->dofs();
 }
 
 void SkeletonHandle::positions(Output& like) const
@@ -229,8 +230,9 @@ void SkeletonHandle::set_positions(const VectorIn& positions)
   // Joint by joint; a method of dart::dynamics::Skeleton would make every dof a change of its own.
   const auto& values = per_dof(positions, "positions");
   skeleton_.world->become_numbers(*skeleton_.skeleton);
-  for (std::size_t i = 0; i < dofs_.size();) {
-    auto& joint = *dofs_[i]->getJoint();
+  const auto& dofs = this->dofs();
+  for (std::size_t i = 0; i < dofs.size();) {
+    auto& joint = *dofs[i]->getJoint();
     const auto size = joint.getNumDofs();
     if (size == 1)
       joint.setPosition(0, values[static_cast<long>(i)]);
@@ -258,8 +260,9 @@ void SkeletonHandle::set_forces(const VectorIn& forces)
   if (skeleton_.skeleton->not_numbers)
     return; // nothing moves, and what a controller makes of NaN is NaN
   const auto& values = per_dof(forces, "forces");
-  for (std::size_t i = 0; i < dofs_.size(); ++i)
-    dofs_[i]->setForce(values[static_cast<long>(i)]);
+  const auto& dofs = this->dofs();
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    dofs[i]->setForce(values[static_cast<long>(i)]);
 }
 
 void SkeletonHandle::set_commands(const VectorIn& commands)
@@ -270,9 +273,8 @@ void SkeletonHandle::set_commands(const VectorIn& commands)
 
 void SkeletonHandle::states(Output& into) const
 {
-  skeleton_.get();
+  double* value = into.vector(2 * static_cast<long>(dofs().size()));
   const auto& from = state();
-  double* value = into.vector(2 * static_cast<long>(dofs_.size()));
   for (const auto* places : {&from.positions, &from.velocities})
     for (const double* place : *places)
       *value++ = *place;
@@ -281,7 +283,7 @@ void SkeletonHandle::states(Output& into) const
 void SkeletonHandle::set_states(const VectorIn& states)
 {
   auto& skel = skeleton();
-  check::size(states.size, 2 * dofs_.size(), "states [q, dq]");
+  check::size(states.size, 2 * dofs().size(), "states [q, dq]");
   check::finite(states, "states");
   skeleton_.world->become_numbers(*skeleton_.skeleton);
   skel.setPositions(states.eigen().head(states.size / 2));
@@ -292,7 +294,7 @@ void SkeletonHandle::position_differences(const VectorIn& q1, const VectorIn& q2
 {
   auto& skel = skeleton();
   for (const auto* q : {&q1, &q2}) {
-    check::size(q->size, dofs_.size(), "positions");
+    check::size(q->size, dofs().size(), "positions");
     check::finite(*q, "positions");
   }
   copy(skel.getPositionDifferences(q1.eigen(), q2.eigen()), out);
@@ -302,7 +304,7 @@ void SkeletonHandle::integrate_positions(const VectorIn& q, const VectorIn& velo
 {
   auto& skel = skeleton();
   for (const auto* numbers : {&q, &velocities}) {
-    check::size(numbers->size, dofs_.size(), "positions and velocities");
+    check::size(numbers->size, dofs().size(), "positions and velocities");
     check::finite(*numbers, "positions and velocities");
   }
   const Eigen::VectorXd before = skel.getPositions(), rates = skel.getVelocities();
@@ -318,7 +320,7 @@ void SkeletonHandle::velocity_differences(const VectorIn& dq1, const VectorIn& d
 {
   auto& skel = skeleton();
   for (const auto* dq : {&dq1, &dq2}) {
-    check::size(dq->size, dofs_.size(), "velocities");
+    check::size(dq->size, dofs().size(), "velocities");
     check::finite(*dq, "velocities");
   }
   copy(skel.getVelocityDifferences(dq1.eigen(), dq2.eigen()), out);
@@ -346,8 +348,8 @@ void SkeletonHandle::force_upper_limits(Output& out) const
 
 void SkeletonHandle::mass_matrix(Output& into)
 {
-  skeleton_.get();
-  const Eigen::MatrixXd& M = mass_matrix_.update(tree_);
+  auto& [tree, mass_matrix, bias_forces] = passes();
+  const Eigen::MatrixXd& M = mass_matrix.update(tree);
   // M is symmetric, so its columns are its rows.
   double* to = into.matrix(M.rows(), M.cols());
   std::copy(M.data(), M.data() + M.size(), to);
@@ -371,8 +373,8 @@ void SkeletonHandle::inv_mass_matrix(Output& into) const
 
 void SkeletonHandle::coriolis_and_gravity_forces(Output& into)
 {
-  skeleton_.get();
-  copy(bias_forces_.update(tree_), into);
+  auto& [tree, mass_matrix, bias_forces] = passes();
+  copy(bias_forces.update(tree), into);
 }
 
 void SkeletonHandle::coriolis_forces(Output& out) const

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,7 @@ public:
 
 private:
   dart::dynamics::Skeleton& skeleton() const { return *skeleton_; }
+  const std::vector<dart::dynamics::DegreeOfFreedom*>& dofs() const { return skeleton().getDofs(); }
   dart::dynamics::Skeleton& with_mass() const;
   void forget_root_armature(); ///< The joint goes.
   void check_root_can_change(const char* what) const;
@@ -130,12 +132,17 @@ private:
   /// Checks the vector and copies it to where DART takes it from without an allocation.
   const Eigen::VectorXd& per_dof(const VectorIn& values, const char* what);
 
+  /// Made when they are first asked for.
+  struct Passes
+  {
+    LinkTree tree;
+    MassMatrix mass_matrix;
+    BiasForces bias_forces;
+  };
+  Passes& passes();
+
   Part<dart::dynamics::Skeleton, dart::dynamics::Skeleton*> skeleton_; // SkeletonRecord owns it
-  std::vector<dart::dynamics::DegreeOfFreedom*> dofs_;
-  DofState state_;
-  LinkTree tree_;
-  MassMatrix mass_matrix_;
-  BiasForces bias_forces_;
+  std::shared_ptr<Passes> passes_;
   Eigen::VectorXd scratch_;
   std::array<Eigen::VectorXd, 7> joint_scratch_; // by the number of dofs
 };
