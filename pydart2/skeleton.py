@@ -215,6 +215,14 @@ class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
         if moved:  # at q = 0 the engine's own numbers stay, bit for bit
             self._place(where[0])
 
+    def set_root_joint_to_free(self) -> None:
+        """Let a root that is fixed float, from where it is; after a reset it is there again.
+
+        ValueError if it is on a joint of another kind.
+        """
+        self._handle.set_root_joint_to_free()
+        self.build()
+
     def _place(self, where: NDArray[np.float64]) -> None:
         """Put the root link there, shape (4, 4), m; a root that floats is there after a reset, too."""
         self.root_bodynode().parent_joint._handle.place(where)
@@ -237,8 +245,12 @@ class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
 
     @property
     def name(self) -> str:
-        """Name of the skeleton."""
+        """Name of the skeleton; can be set to one that no other skeleton of the world has."""
         return self._handle.name()
+
+    @name.setter
+    def name(self, name: str) -> None:
+        self._handle.set_name(name)
 
     # Structure
 

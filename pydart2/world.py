@@ -21,6 +21,7 @@ from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError, NameNotFound
 from pydart2.queries import WorldQueries
 from pydart2.recording import Recording
+from pydart2.scenes import Scenes
 from pydart2.skeleton import Skeleton, _compute_of
 from pydart2.state import Snapshot, model_hash
 from pydart2.telling import Named
@@ -85,7 +86,7 @@ def _rebuild(
     return world
 
 
-class World(WorldBuilding, WorldQueries, Upright, Named, Assignable):
+class World(WorldBuilding, Scenes, WorldQueries, Upright, Named, Assignable):
     """A simulated world.
 
     >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")
@@ -212,7 +213,7 @@ class World(WorldBuilding, WorldQueries, Upright, Named, Assignable):
         enforce_limits: bool = False,
         position: ArrayLike | None = None,
         orientation: ArrayLike | None = None,
-        base: Literal["auto", "fixed"] = "auto",
+        base: Literal["auto", "fixed", "free"] = "auto",
         name: str | None = None,
     ) -> Skeleton:
         """Load a URDF, SDF, SKEL, MJCF or VSK file and add its skeleton.
@@ -252,7 +253,8 @@ class World(WorldBuilding, WorldQueries, Upright, Named, Assignable):
             Where the root link is in the world: shape (3,), m; a quaternion [w, x, y, z] or a (3, 3) matrix. What is
             not given is the file's. A base that floats is there after a reset, too.
         base
-            ``"fixed"`` welds the root link to the world; ``"auto"`` leaves it as the file has it.
+            ``"fixed"`` welds the root link to the world, ``"free"`` lets one that is fixed float; ``"auto"`` leaves it
+            as the file has it.
         name
             In place of the file's (URDF, SDF, SKEL). The second skeleton of a name gets `` (1)`` behind it.
 
@@ -264,8 +266,8 @@ class World(WorldBuilding, WorldQueries, Upright, Named, Assignable):
         self._handle.time()  # a world that is gone says so before the file is read
         from pydart2.loading import Options, read_model
 
-        if base not in ("auto", "fixed"):
-            raise ValueError(f"base must be 'auto' or 'fixed', got {base!r}")
+        if base not in ("auto", "fixed", "free"):
+            raise ValueError(f"base must be 'auto', 'fixed' or 'free', got {base!r}")
         where = pose((0.0, 0.0, 0.0) if position is None else position, orientation)
         options = Options(packages, missing_meshes, safe, False, reader, massless, engine_defaults, strict, name)
         model = read_model(filename, options)
@@ -274,6 +276,8 @@ class World(WorldBuilding, WorldQueries, Upright, Named, Assignable):
             skel = (CLASS or self.CLASS_SKELETON)(self, _filename=model)
             if base == "fixed":
                 skel.set_root_joint_to_weld()
+            elif base == "free":
+                skel.set_root_joint_to_free()
             if position is not None or orientation is not None:
                 stands = skel.root_bodynode().world_transform()
                 where[:3, 3] = stands[:3, 3] if position is None else where[:3, 3]

@@ -13,7 +13,7 @@ import logging
 import math
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 from xml.sax.saxutils import escape
@@ -24,6 +24,7 @@ from pydart2.loading import files
 from pydart2.loading.checks import check, relevant, rules_of
 from pydart2.loading.mass import settle_masses
 from pydart2.loading.mending import is_unbounded, mend, mend_fields, mirror
+from pydart2.loading.parts import names_of, skeletons_of, split
 from pydart2.loading.readable import Readable
 from pydart2.loading.rules import URDF, URDF_WORLD, Rules
 from pydart2.loading.trial import try_model
@@ -128,7 +129,9 @@ class Model(Readable):
     def add_to(self, world: WorldHandle) -> int:
         """Add the skeleton to a world; returns its index there."""
         if not self.has_skeleton:
-            what = "is a world; load it with World(step, file)" if self.has_world else "has no model"
+            inside = names_of(skeletons_of(self.document.root))
+            many = f"; world.add_skeletons(file) adds what is in it: {inside}" if inside else ""
+            what = f"is a world; load it with World(step, file){many}" if self.has_world else "has no model"
             raise self.document.error(self.document.root, f"it {what}")
         self._try(world=False)
         with self._located():
@@ -191,19 +194,7 @@ def read_model(what: Source | Readable, options: Options | None = None) -> Reada
     if isinstance(what, Readable):
         return what
     options = options or Options()
-    if options.massless and options.engine_defaults:
-        raise ValueError("massless=True and engine_defaults=True exclude each other")
-    if options.reader not in ("mujoco", "engine"):
-        raise ValueError(f"reader must be 'mujoco' or 'engine', got {options.reader!r}")
-    if options.missing_meshes not in ("error", "warn"):
-        raise ValueError(f"missing_meshes must be 'error' or 'warn', got {options.missing_meshes!r}")
-    if isinstance(what, bytes):
-        document = parse(what, None)
-    elif isinstance(what, str) and (options.text or what.lstrip("\ufeff \t\r\n").startswith("<")):
-        document = parse(what.encode("utf-8", "replace"), None)
-    else:
-        path = _path_of(os.fspath(what), options)
-        document = parse(files.read_bytes(path), path)
+    document = _document_of(what, options)
     if options.name is not None and not options.name.strip():
         raise ValueError("name must not be empty")
     if document.root.tag == "mujoco":
@@ -215,6 +206,31 @@ def read_model(what: Source | Readable, options: Options | None = None) -> Reada
             return MjcfModel(document, safe=options.safe is not False)
         _log.warning("%s: read with reader='engine', whose numbers differ from MuJoCo's", document.path or "XML text")
     return _Builder(document, options).build()
+
+
+def read_models(what: Source, options: Options, only: str | Iterable[str] | None) -> Iterator[Model]:
+    """Read and check the skeletons of a SKEL or SDF file, or those of some names, each as a model of its own.
+
+    Raises LoadError as read_model() does, and NameNotFound.
+    """
+    for document in split(_document_of(what, options), only):
+        yield _Builder(document, options).build()
+
+
+def _document_of(what: Source, options: Options) -> Document:
+    """The XML that a path, a URI or a text means."""
+    if options.massless and options.engine_defaults:
+        raise ValueError("massless=True and engine_defaults=True exclude each other")
+    if options.reader not in ("mujoco", "engine"):
+        raise ValueError(f"reader must be 'mujoco' or 'engine', got {options.reader!r}")
+    if options.missing_meshes not in ("error", "warn"):
+        raise ValueError(f"missing_meshes must be 'error' or 'warn', got {options.missing_meshes!r}")
+    if isinstance(what, bytes):
+        return parse(what, None)
+    if isinstance(what, str) and (options.text or what.lstrip("\ufeff \t\r\n").startswith("<")):
+        return parse(what.encode("utf-8", "replace"), None)
+    path = _path_of(os.fspath(what), options)
+    return parse(files.read_bytes(path), path)
 
 
 def _path_of(name: str, options: Options) -> str:
@@ -255,6 +271,10 @@ class _Builder:
 
     def build(self) -> Model:
         self._add(self.path, self.main, ())
+        skeletons = skeletons_of(self.main.root)
+        if len(skeletons) > 1 and self.main.root.find("world") is None:
+            reason = f"of {names_of(skeletons)} the first is taken; world.add_skeletons() takes all"
+            self._warn(self.main, skeletons[1], reason)
         if self.options.name is not None:
             self._rename(self.options.name)
         self._settle_meshes()

@@ -126,6 +126,12 @@ class Document:
         return b"".join([*pieces, self.data[at:]])
 
 
+def opening_tag(data: bytes, start: int) -> int:
+    """Where the opening tag ends that begins at `start`."""
+    tag = _TAG.match(data, start)
+    return tag.end() if tag else start
+
+
 def parse(data: bytes, path: str | None) -> Document:
     """Read XML; LoadError with the line if it is not well-formed, beyond a limit, or declares entities."""
     data = _as_utf8(data, path)

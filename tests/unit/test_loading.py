@@ -211,10 +211,10 @@ def test_refused(tmp_path: Path, text: str, line: int | None, reason: str) -> No
 
 
 def test_what_the_checks_miss_is_tried_by_the_helper(world: World) -> None:
-    """No check knows of a mesh turned inside out: the engine would abort."""
+    """No check knows of a mesh made flat: the engine would abort."""
     mesh = pydart2.data_path("obj/atlas/l_foot.obj")
     text = URDF.replace(
-        "</link>", f"<visual><geometry><mesh filename='{mesh}' scale='-1 1 1'/></geometry></visual></link>"
+        "</link>", f"<visual><geometry><mesh filename='{mesh}' scale='0 1 1'/></geometry></visual></link>"
     )
     assert "the engine would abort: it needs (scale.array() > 0.0).all()" in str(refusal(text))
     world.add_skeleton(URDF)

@@ -89,3 +89,111 @@ def test_welding_keeps_the_robot_where_it_is() -> None:
     world.step(10)
     np.testing.assert_allclose(moved.root_bodynode().T, before[1], atol=1e-14)
     np.testing.assert_array_equal(world.clone().skeletons[1].root_bodynode().T, moved.root_bodynode().T)
+
+
+@pytest.mark.parametrize("text", [ARM, SDF, PR2], ids=["welded", "SDF", "PR2"])
+def test_a_free_base_floats_from_where_the_file_has_it(text: str) -> None:
+    """It is there again after a reset, and in copies; the dynamics are those of a file that has it so."""
+    world = World(0.001)
+    as_written = world.add_skeleton(text).root_bodynode().T
+    fixed = world.add_skeleton(text, base="fixed")
+    free = world.add_skeleton(text, base="free")
+    assert free.ndofs == fixed.ndofs + 6
+    np.testing.assert_allclose(free.root_bodynode().T, as_written, atol=1e-12)
+    fixed.set_root_joint_to_free()
+    np.testing.assert_allclose(fixed.M, free.M, rtol=1e-12, atol=1e-12)
+    for other in world.skeletons[:2]:
+        world.remove_skeleton(other)
+    world.step(10)
+    assert np.abs(free.root_bodynode().T - as_written).max() > 1e-5
+    for copy in (world.clone(), pickle.loads(pickle.dumps(world))):
+        np.testing.assert_array_equal(copy.skeletons[0].root_bodynode().T, free.root_bodynode().T)
+        copy.reset()
+        np.testing.assert_allclose(copy.skeletons[0].root_bodynode().T, as_written, atol=1e-12)
+
+
+def test_only_a_fixed_root_is_made_free() -> None:
+    world = World(0.001)
+    skel = world.add_skeleton(PR2)
+    skel.set_root_joint_to_trans_and_euler()
+    with pytest.raises(ValueError, match="'root_t'; only a root that is fixed"):
+        skel.set_root_joint_to_free()
+
+
+def test_names_can_be_set() -> None:
+    """To what no other has; even exchanged ones survive in copies."""
+    world = World(0.001)
+    first, second = world.add_skeleton(BOX), world.add_skeleton(BOX)
+    with pytest.raises(ValueError, match="a skeleton 'box' already"):
+        second.name = "box"
+    with pytest.raises(ValueError, match="needs a name"):
+        second.name = " "
+    first.name = "else"
+    second.name = "box"
+    first.name = "box (1)"
+    first.name = "box (1)"
+    for one in (world, world.clone(), pickle.loads(pickle.dumps(world))):
+        assert [skel.name for skel in one.skeletons] == ["box (1)", "box"]
+        assert one.skeleton("box").id == 1
+    with pytest.raises(KeyError, match="in skeleton 'box'"):
+        second.dof("none")
+
+
+def sdf_model(name: str, x: float) -> str:
+    return f"<model name='{name}'><pose>{x} 0 0 0 0 0</pose>{LINK}</model>"
+
+
+SDF_WORLD = f"""<sdf version='1.5'><world name='w'><!-- two -->
+{sdf_model("a", 1)}<physics type='ode'><gravity>0 0 -1</gravity></physics>
+{sdf_model("b", 2)}</world></sdf>"""
+
+
+def test_skeletons_of_a_world_come_to_another() -> None:
+    """Each as the engine has it in the world itself; moved all at once; without its gravity."""
+    whole = World(0.001, SDF_WORLD)
+    world = World(0.001)
+    made = world.add_skeletons(SDF_WORLD)
+    assert world.skeletons == made and world.gravity()[1] == -9.81
+    for ours, theirs in zip(made, whole.skeletons, strict=True):
+        assert ours.name == theirs.name
+        np.testing.assert_array_equal(ours.root_bodynode().T, theirs.root_bodynode().T)
+    (b,) = world.add_skeletons(SDF_WORLD, only="b", position=[0.0, 0.0, 5.0], orientation=MATRIX)
+    assert b.name == "b (1)"
+    place = np.eye(4)
+    place[:3, :3], place[2, 3] = MATRIX, 5.0
+    np.testing.assert_allclose(b.root_bodynode().T, place @ made[1].root_bodynode().T, atol=1e-12)
+    world.reset()
+    np.testing.assert_allclose(b.root_bodynode().T, place @ made[1].root_bodynode().T, atol=1e-12)
+    assert [skel.name for skel in pickle.loads(pickle.dumps(world)).skeletons] == ["a", "b", "b (1)"]
+
+
+def test_skeletons_of_a_skel_file_come_to_another_world() -> None:
+    """The second body of a file, which add_skeleton() could not give; joints that are no free ones move as well."""
+    path = "./data/skel/cubes.skel"
+    whole, world = World(0.001, path), World(0.001)
+    names = [skel.name for skel in whole.skeletons]
+    (last,) = world.add_skeletons(path, only=[names[-1]])
+    np.testing.assert_array_equal(last.root_bodynode().T, whole.skeletons[-1].root_bodynode().T)
+    np.testing.assert_array_equal(last.M, whole.skeletons[-1].M)
+    moved = world.add_skeletons("./data/skel/chain.skel", position=[0.0, 1.0, 0.0])
+    still = world.add_skeletons("./data/skel/chain.skel")
+    for ours, theirs in zip(moved, still, strict=True):
+        up = [body.C - np.array([0.0, 1.0, 0.0]) for body in ours.bodynodes]
+        np.testing.assert_allclose(up, [body.C for body in theirs.bodynodes], atol=1e-12)
+
+
+def test_what_holds_several_says_so(caplog: Any) -> None:
+    world = World(0.001)
+    with pytest.raises(LoadError, match=r"world\.add_skeletons\(file\) adds what is in it: 'a', 'b'"):
+        world.add_skeleton(SDF_WORLD)
+    text = f"<sdf version='1.5'>{sdf_model('a', 1)}\n{sdf_model('b', 2)}</sdf>"
+    assert world.add_skeleton(text).name == "a"
+    assert "line 2: of 'a', 'b' the first is taken" in caplog.text
+    with pytest.raises(KeyError, match="no skeleton 'c' in the XML text with 'a', 'b'"):
+        world.add_skeletons(text, only=["a", "c"])
+    with pytest.raises(LoadError, match="use add_skeleton"):
+        world.add_skeletons(BOX)
+    broken = SDF_WORLD.replace("0 0 1 0 0 0</pose></link></model></world>", "0 0 1</pose></link></model></world>")
+    with pytest.raises(LoadError, match="line 3"):
+        world.add_skeletons(broken)
+    assert len(world.skeletons) == 1

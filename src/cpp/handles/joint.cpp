@@ -171,8 +171,10 @@ void JointHandle::place(const Eigen::Matrix4d& pose)
     const Eigen::VectorXd q = dart::dynamics::FreeJoint::convertToPositions(inner);
     free->setPositions(q);
     free->setInitialPositions(q);
-  } else
-    joint_->setTransformFromParentBodyNode(transform * joint_->getTransformFromChildBodyNode());
+  } else {
+    const auto motion = joint_->getTransformFromParentBodyNode().inverse() * joint_->getRelativeTransform();
+    joint_->setTransformFromParentBodyNode(transform * motion.inverse());
+  }
 }
 
 Eigen::Matrix4d JointHandle::world_transform_of_child_side() const

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/dynamics/FreeJoint.hpp>
 #include <set>
 
 #include "base/checks.hpp"
@@ -86,6 +87,11 @@ std::string SkeletonHandle::name() const
 
 std::string SkeletonHandle::set_name(const std::string& name)
 {
+  if (name.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw Error(Kind::value, "a skeleton needs a name");
+  const auto other = skeleton_.world->world->getSkeleton(name);
+  if (other && other != skeleton_.skeleton->skeleton)
+    throw Error(Kind::value, "the world has a skeleton '" + name + "' already; names are distinct");
   return skeleton().setName(name);
 }
 
@@ -499,6 +505,21 @@ void SkeletonHandle::set_root_joint_to_weld()
   forget_root_armature();
   change_root_to_weld(skeleton());
   tree_changed(RootChange::weld);
+}
+
+void SkeletonHandle::set_root_joint_to_free()
+{
+  check_root_can_change("set_root_joint_to_free()");
+  const Joint& joint = *skeleton().getRootJoint();
+  if (joint.getType() == dart::dynamics::FreeJoint::getStaticType())
+    return;
+  if (joint.getNumDofs() > 0)
+    throw Error(
+        Kind::value,
+        "the root of skeleton '" + name() + "' is on a " + joint.getType() + ", '" + joint.getName()
+            + "'; only a root that is fixed can be made free");
+  change_root_to_free(skeleton());
+  tree_changed(RootChange::free);
 }
 
 int SkeletonHandle::add_body(

@@ -104,6 +104,9 @@ public:
   /// Every handle into this skeleton must be taken again.
   void set_root_joint_to_weld();
 
+  /// A root that is fixed floats from where it is.
+  void set_root_joint_to_free();
+
   /// Adds a body without mass to a parent, -1 for the world; returns its index. The joint is of the engine's type; the
   /// axes are rows, as many as the type has. Every handle into this skeleton must be taken again.
   int add_body(long parent, const std::string& name, const std::string& joint_type, const std::string& joint_name, const MatrixIn& axes);

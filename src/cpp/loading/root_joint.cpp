@@ -1,6 +1,7 @@
 #include "loading/root_joint.hpp"
 
 #include <dart/dynamics/EulerJoint.hpp>
+#include <dart/dynamics/FreeJoint.hpp>
 #include <dart/dynamics/TranslationalJoint.hpp>
 #include <dart/dynamics/WeldJoint.hpp>
 
@@ -41,6 +42,17 @@ void change_root_to_weld(Skeleton& skeleton)
   BodyNode* root = skeleton.getRootBodyNode();
   const Joint& joint = *root->getParentJoint();
   root->changeParentJointType<WeldJoint>(with_frames<WeldJoint::Properties>(joint, joint, joint.getName()));
+}
+
+void change_root_to_free(Skeleton& skeleton)
+{
+  BodyNode* root = skeleton.getRootBodyNode();
+  const Eigen::VectorXd stands = FreeJoint::convertToPositions(root->getWorldTransform());
+  FreeJoint::Properties properties;
+  properties.mName = root->getParentJoint()->getName();
+  auto* joint = root->changeParentJointType<FreeJoint>(properties);
+  joint->setPositions(stands);
+  joint->setInitialPositions(stands);
 }
 
 } // namespace pydart2

@@ -43,6 +43,7 @@ std::string source_of(const SkeletonRecord& record)
 /// The plan: the world's source, its detector, and for each skeleton its source, its index in the world that it came
 /// with, its root changes.
 constexpr std::size_t texts_of_world = 2, texts_per_skeleton = 3;
+constexpr char letter_of[] = "ewf"; // RootChange
 
 std::vector<std::string> plan_of(const WorldRecord& world)
 {
@@ -50,7 +51,7 @@ std::vector<std::string> plan_of(const WorldRecord& world)
   for (const auto& item : world.skeletons) {
     std::string changes;
     for (const auto change : item->root_changes)
-      changes += change == RootChange::weld ? 'w' : 'e';
+      changes += letter_of[static_cast<int>(change)];
     plan.insert(plan.end(), {source_of(*item), std::to_string(item->index_in_source), changes});
   }
   return plan;
@@ -108,9 +109,12 @@ void add_to(WorldRecord& world, const std::string& source)
 
 void change_root(SkeletonRecord& record, char change)
 {
-  const bool weld = change == 'w';
-  (weld ? change_root_to_weld : change_root_to_trans_and_euler)(*record.skeleton);
-  record.root_changes.push_back(weld ? RootChange::weld : RootChange::trans_and_euler);
+  constexpr decltype(&change_root_to_weld) changes[] = {change_root_to_trans_and_euler, change_root_to_weld, change_root_to_free};
+  const std::size_t which = std::string(letter_of).find(change);
+  if (which == std::string::npos)
+    Archive::refuse();
+  changes[which](*record.skeleton);
+  record.root_changes.push_back(static_cast<RootChange>(which));
 }
 
 void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
@@ -164,6 +168,8 @@ WorldRef build(const Blueprint& blueprint)
   if (const Eigen::Map<const Eigen::VectorXd> numbers(blueprint.numbers.data(), static_cast<long>(blueprint.numbers.size()));
       numbers.hasNaN())
     Archive::refuse();
+  for (const auto& item : world->skeletons) // none of the names to come is another's
+    item->skeleton->setName("\n" + item->skeleton->getName());
   Archive model(blueprint.texts, blueprint.numbers);
   visit_model(model, *world);
   model.finish();

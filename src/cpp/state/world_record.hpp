@@ -22,7 +22,7 @@ namespace pydart2 {
 class StateWatch; // stepping.cpp
 class TreeDynamics;
 
-enum class RootChange { trans_and_euler, weld };
+enum class RootChange { trans_and_euler, weld, free };
 
 /// A skeleton of a world, shared by all handles into it, and where it came from.
 struct SkeletonRecord
