@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     # The documented modules, for type checkers: at run time the imports above have bound them.
     from pydart2 import bodynode as bodynode
     from pydart2 import dof as dof
-    from pydart2 import gui, utils
+    from pydart2 import gui, models, utils
     from pydart2 import joint as joint
     from pydart2 import marker as marker
     from pydart2 import shape as shape
@@ -109,6 +109,7 @@ __all__ = [
     "engine_info",
     "gui",
     "init",
+    "models",
     "papi",
     "pydart2_api",
     "set_verbose",
@@ -123,7 +124,7 @@ def __getattr__(name: str) -> object:
         from importlib.metadata import version
 
         return version("pydart2")
-    if name in ("gui", "utils"):
+    if name in ("gui", "models", "utils"):
         from importlib import import_module
 
         return import_module(f"pydart2.{name}")

@@ -70,7 +70,7 @@ class Places:
 
 
 def package_folders(name: str, folder: str, packages: Mapping[str, str]) -> Iterator[str]:
-    """Folders that may be the package `name`: as the caller says, else in ROS_PACKAGE_PATH, else above the model."""
+    """Folders that may be the package `name`: as the caller says, else in ROS_PACKAGE_PATH, above, installed."""
     if name in packages:
         yield packages[name]
         return
@@ -83,6 +83,9 @@ def package_folders(name: str, folder: str, packages: Mapping[str, str]) -> Iter
             yield str(above)
         elif name and os.path.isdir(above / name):
             yield str(above / name)
+    from pydart2 import models  # which reads the records of all installed packages
+
+    yield from models.package_folders(name)
 
 
 def _escaped(name: str) -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import re
+import select
 import signal
-import subprocess
+import time
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -16,6 +18,7 @@ from pydart2.errors import PydartError
 HELPER = Path(__file__).resolve().parent.parent / "_try_load"
 SECONDS = 5.0  # of processor time, and one more for each megabyte
 BYTES = 4e9  # of memory, and a hundred more for each byte of the files
+MOST_IDLE = 2
 _ASSERTION = re.compile(r"(?:.*/)?([^/\s]+\.\w+:\d+): .*Assertion `(.*)' failed")
 
 _known_to_work: set[bytes] = set()
@@ -44,21 +47,123 @@ def _stamp(files: Iterable[str]) -> tuple[int, bytes]:
     return sum(state.st_size for _, state in states), repr(stamp).encode()
 
 
-def _run(request: bytes, size: int) -> str | None:
-    seconds = SECONDS + size / 1e6
-    command = [str(HELPER), f"{seconds:.0f}", f"{BYTES + 100 * size:.0f}"]
+class _Helper:
+    """A process that tries one model after another, each in a process of its own (src/try_load/main.cpp).
+
+    It ends when this one does, and is no child of it, so that who waits for all children does not wait for it.
+    """
+
+    def __init__(self) -> None:
+        self.path = str(HELPER)
+        theirs_in, self.requests = os.pipe()
+        self.answers, theirs_out = os.pipe()
+        actions = [
+            (os.POSIX_SPAWN_DUP2, theirs_in, 0),
+            (os.POSIX_SPAWN_DUP2, theirs_out, 1),
+            (os.POSIX_SPAWN_OPEN, 2, os.devnull, os.O_WRONLY, 0),
+        ]
+        try:
+            self.group = os.posix_spawn(self.path, [self.path], os.environ, file_actions=actions, setpgroup=0)
+        except BaseException:
+            self.close()
+            raise
+        finally:
+            os.close(theirs_in)
+            os.close(theirs_out)
+        with contextlib.suppress(ChildProcessError):  # another waited for it
+            os.waitpid(self.group, 0)
+
+    def ask(self, request: bytes, seconds: float, memory: float) -> tuple[int, str, str]:
+        """Exit code, or minus a signal's number; what was said; what was complained of.
+
+        EOFError if the helper is gone, TimeoutError if the trial takes ten times the processor time that it has.
+        """
+        deadline = time.monotonic() + 10.0 * seconds
+        left = memoryview(f"{seconds:.0f} {memory:.0f} {len(request)}\n".encode() + request)
+        try:
+            while left:
+                left = left[os.write(self.requests, left) :]
+        except BrokenPipeError:
+            raise EOFError from None
+        got = b""
+        while b"\n" not in got:
+            got += self._read(deadline)
+        head, _, texts = got.partition(b"\n")
+        code, *sizes = map(int, head.split())
+        while len(texts) < sum(sizes):
+            texts += self._read(deadline)
+        return code, texts[: sizes[0]].decode("utf-8", "replace"), texts[sizes[0] :].decode("utf-8", "replace")
+
+    def _read(self, deadline: float) -> bytes:
+        poll = select.poll()
+        poll.register(self.answers, select.POLLIN)
+        if not poll.poll(max(0.0, deadline - time.monotonic()) * 1000.0):
+            raise TimeoutError
+        data = os.read(self.answers, 1 << 16)
+        if not data:
+            raise EOFError
+        return data
+
+    def close(self) -> None:
+        """Let it end, when it has answered."""
+        os.close(self.requests)
+        os.close(self.answers)
+
+    def kill(self) -> None:
+        """End it, and a trial that it has under way."""
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.group, signal.SIGKILL)
+        self.close()
+
+
+_idle: list[_Helper] = []
+
+
+def _forget_helpers() -> None:
+    """In a forked process: they are its parent's."""
+    while _idle:
+        _idle.pop().close()
+
+
+os.register_at_fork(after_in_child=_forget_helpers)
+
+
+def _helper() -> _Helper:
+    """One that has nothing to do, else a new one."""
+    while _idle:
+        helper = _idle.pop()
+        if helper.path == str(HELPER):
+            return helper
+        helper.close()
     try:
-        # close_fds=False lets subprocess use posix_spawn: this process is not forked.
-        done = subprocess.run(command, input=request, capture_output=True, timeout=10 * seconds, close_fds=False)
+        return _Helper()
     except OSError as error:
         raise PydartError(f"cannot run {HELPER}: {error}; reinstall pydart2, or load with safe=False") from error
-    except subprocess.TimeoutExpired:
-        return f"the engine does not finish it in {10 * seconds:.0f} s"
-    if done.returncode == 0:
-        return None
-    if done.returncode > 0:
-        return done.stdout.decode("utf-8", "replace") or f"the helper ended with code {done.returncode}"
-    return _crash(-done.returncode, done.stderr.decode("utf-8", "replace"), seconds)
+
+
+def _run(request: bytes, size: int) -> str | None:
+    seconds = SECONDS + size / 1e6
+    for _ in range(2 + MOST_IDLE):  # somebody may have ended those that wait
+        helper = _helper()
+        try:
+            code, said, complained = helper.ask(request, seconds, BYTES + 100 * size)
+        except EOFError:
+            helper.close()
+            continue
+        except TimeoutError:
+            helper.kill()
+            return f"the engine does not finish it in {10 * seconds:.0f} s"
+        except BaseException:
+            helper.kill()
+            raise
+        if len(_idle) < MOST_IDLE:
+            _idle.append(helper)
+        else:
+            helper.close()
+        if code < 0:
+            return _crash(-code, complained, seconds)
+        return (said or f"the helper ended with code {code}") if code > 0 else None
+    raise PydartError(f"{HELPER} ends at once; reinstall pydart2, or load with safe=False")
 
 
 def _crash(number: int, said: str, seconds: float) -> str:
