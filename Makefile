@@ -73,6 +73,7 @@ coverage: setup
 test-third-party: setup
 	$(VENV)/bin/python tools/fetch_models.py build/third-party
 	$(VENV)/bin/pip install --quiet pin example-robot-data
+	$(VENV)/bin/python tests/models/what_loads.py build/third-party >docs/what-loads.md
 	$(VENV)/bin/python -m pytest -m third_party
 
 fuzz: setup

@@ -28,7 +28,7 @@ _EXTENTS = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "len
 
 
 def mend_fields(document: Document, elements: Iterable[Element], rules: Rules, say: Say) -> None:
-    """Settle what the checks would refuse: a fourth number of a scale, SDF's hinges without limits."""
+    """Settle what the checks would refuse: a fourth number of a scale, SDF's hinges without limits and with gears."""
     for element in elements:
         scale = (element.get("@scale") or "").split()
         if element.tag == "mesh" and document.root.tag == "robot" and len(scale) > 3:
@@ -39,6 +39,14 @@ def mend_fields(document: Document, elements: Iterable[Element], rules: Rules, s
             if element.find("axis", "limit") is not None:
                 document.set(element, "axis/limit/lower", "-inf")
                 document.set(element, "axis/limit/upper", "inf")
+        elif element.tag == "joint" and rules.kind == "sdf" and element.get("@type") == "gearbox":
+            gear = f"{element.get('gearbox_ratio')} to {element.get('gearbox_reference_body')!r}"
+            say(
+                document,
+                element,
+                f"{element}: the engine has no gears; it turns freely, its ratio of {gear} is left out",
+            )
+            document.set(element, "@type", "revolute")
 
 
 def mend(
@@ -65,6 +73,26 @@ def mend(
             _mend_limit(document, element, kind, say, bounds_as_engine)
         elif element.tag == "mimic" and kind == "urdf" and owner is not None:
             _mend_mimic(document, element, owner, say)
+        elif element.tag == "world" and kind == "sdf":
+            _mend_gravity(document, element, say)
+
+
+def _mend_gravity(document: Document, world: Element, say: Say) -> None:
+    """Gravity stands in <physics> for the engine; since SDF 1.5 it belongs directly into <world>."""
+    gravity, physics = world.get("gravity"), world.find("physics")
+    if gravity is None:
+        return
+    inner = physics.get("gravity") if physics else None
+    if physics is None:
+        document.append(world, f"<physics><gravity>{gravity}</gravity></physics>".encode())
+    elif inner is None:
+        document.append(physics, f"<gravity>{gravity}</gravity>".encode())
+    elif list(map(float, inner.split())) != list(map(float, gravity.split())):
+        say(
+            document,
+            world,
+            f"{world}: its gravity is {gravity.strip()}, that of its <physics>, {inner.strip()}, is taken",
+        )
 
 
 def _called(shape: Element) -> str:

@@ -141,6 +141,7 @@ SDF = Rules(
         "fixed": (),
     },
     numbers={
+        "world": {"gravity": 3},
         "physics": {"max_step_size": 1, "gravity": 3},
         "model": {"pose": 6},
         "link": {"pose": 6},

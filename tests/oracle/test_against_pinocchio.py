@@ -46,7 +46,8 @@ def folder() -> Path:
 
 def kinematic_xml(path: Path) -> str:
     """A robot without its shapes."""
-    root = ElementTree.fromstring(re.sub(r"<\?xml.*?\?>", "", path.read_text()))
+    text = re.sub(r"<\?xml.*?\?>", "", path.read_text())
+    root = ElementTree.fromstring(re.sub(r"(?<=[\s</])\w+:(?=\w)", "", text))  # prefixes that no file declares
     for link in root.iter("link"):
         for shape in link.findall("visual") + link.findall("collision"):
             link.remove(shape)
@@ -168,3 +169,53 @@ def test_jacobians(pair: Pair) -> None:
         close(body.T, data.oMf[frame].homogeneous)
         J = np.array(pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED))
         close(body.world_jacobian(), pair.columns(np.vstack([J[3:], J[:3]])))
+
+
+def airo_models() -> Path:
+    """Where airo-models keeps its robots."""
+    found = importlib.util.find_spec("airo_models")
+    assert found and found.origin, "airo-models is not installed: pip install airo-models"
+    return Path(found.origin).parent
+
+
+def relative(ours: Array, theirs: Array) -> float:
+    """The greatest difference, of the largest number or of 1."""
+    return float(np.abs(ours - theirs).max(initial=0.0) / max(1.0, np.abs(theirs).max(initial=0.0)))
+
+
+def worst_of(pair: Pair) -> float:
+    """Of M, c, and each body's pose and Jacobian."""
+    pin, skel, model, data = pair.pin, pair.skel, pair.model, pair.data
+    M = np.array(pin.crba(model, data, pair.q))
+    M = np.triu(M) + np.triu(M, 1).T
+    found = [relative(skel.M, M[np.ix_(pair.order, pair.order)])]
+    found.append(relative(skel.c, pin.nonLinearEffects(model, data, pair.q, pair.v)[pair.order]))
+    pin.computeJointJacobians(model, data, pair.q)
+    pin.framesForwardKinematics(model, data, pair.q)
+    for body in skel.bodynodes:
+        frame = model.getFrameId(body.name, pin.FrameType.BODY)
+        found.append(relative(body.T, data.oMf[frame].homogeneous))
+        J = np.array(pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED))
+        found.append(relative(body.world_jacobian(), pair.columns(np.vstack([J[3:], J[:3]]))))
+    return max(found)
+
+
+def test_every_robot(capsys: Any) -> None:
+    """All URDF files of example-robot-data and airo-models that Pinocchio reads and that move, to 1e-12."""
+    worst: dict[str, float] = {}
+    refused = []
+    for path in sorted([*folder().rglob("*.urdf"), *airo_models().rglob("*.urdf")]):
+        for floating in (False, True):
+            try:
+                pair = Pair(path, floating)
+            except ValueError as error:
+                assert "does not contain a valid URDF model" in str(error), f"{path}: {error}"  # says Pinocchio
+                refused.append(path.name)
+                continue
+            if pair.model.nv > 0:  # Pinocchio's frames have no Jacobian then
+                worst[f"{path.name}{' floating' * floating}"] = worst_of(pair)
+    with capsys.disabled():
+        name = max(worst, key=lambda name: worst[name])
+        print(f"\n{len(worst)} robots, at most {worst[name]:.1e} apart ({name}); Pinocchio refuses {set(refused)}")
+    assert len(worst) >= 130
+    assert {name: difference for name, difference in worst.items() if not difference < 1e-12} == {}

@@ -232,3 +232,39 @@ def test_zero_bytes_at_the_end() -> None:
 def test_shapes_left_out_on_request(caplog: Any) -> None:
     skeleton = World(0.001).add_skeleton(urdf("<bix/>"), missing_meshes="warn")
     assert list(skeleton.bodynodes[0].shapenodes) == [] and "left out" in caplog.text
+
+
+def gravity_world(outer: str, physics: str) -> str:
+    model = "<model name='m'><link name='l'/></model>"
+    return f"<sdf version='1.6'>\n<world name='w'>{outer}{physics}{model}</world></sdf>"
+
+
+@pytest.mark.parametrize("physics", ["", "<physics type='ode'/>", "<physics type='ode'><real_time_factor/></physics>"])
+def test_gravity_of_an_sdf_world_itself(physics: str, caplog: Any) -> None:
+    """Where SDF has it since 1.5; the engine reads that of <physics>."""
+    world = World(0.001, gravity_world("<gravity>0 1 -2</gravity>", physics))
+    np.testing.assert_array_equal(world.gravity(), [0.0, 1.0, -2.0])
+    assert not caplog.records
+
+
+def test_two_gravities(caplog: Any) -> None:
+    """That of <physics>, as the engine has it; a warning if they differ."""
+    text = gravity_world("<gravity>0 1 -2</gravity>", "<physics type='ode'><gravity>0 0 {}</gravity></physics>")
+    np.testing.assert_array_equal(World(0.001, text.format(-3)).gravity(), [0.0, 0.0, -3.0])
+    assert "line 2: <world> 'w': its gravity is 0 1 -2, that of its <physics>, 0 0 -3, is taken" in caplog.text
+    caplog.clear()
+    World(0.001, text.replace("0 1 -2", "0 0 -2").format(-2.0))
+    assert not caplog.records
+    with pytest.raises(LoadError, match="<gravity> of <world> 'w' must be 3 numbers"):
+        World(0.001, gravity_world("<gravity>1</gravity>", ""))
+
+
+def test_gears_are_said_and_turn_freely(caplog: Any) -> None:
+    joint = """<joint name='j' type='gearbox'><parent>a</parent><child>b</child><gearbox_ratio>0.04</gearbox_ratio>
+<gearbox_reference_body>a</gearbox_reference_body><axis><xyz>0 0 1</xyz></axis></joint>"""
+    text = f"<sdf version='1.5'><model name='m'><link name='a'/><link name='b'/>\n{joint}</model></sdf>"
+    skeleton = World(0.001).add_skeleton(text)
+    assert skeleton.joint("j").num_dofs() == 1
+    assert "line 2: <joint> 'j': the engine has no gears" in caplog.text and "0.04 to 'a'" in caplog.text
+    with pytest.raises(LoadError, match="no gears"):
+        World(0.001).add_skeleton(text, strict=True)
