@@ -13,45 +13,84 @@ if TYPE_CHECKING:
 
 
 class Constraint:
-    """What holds two bodies together, or one in the world; it acts from add_to_world() to remove().
+    """What holds two bodies together, or one in the world, from add_to_world() to remove().
 
-    Attributes
-    ----------
-    body1 : BodyNode
-    body2 : BodyNode or None
-        None for the world.
+    Bodies are held as they stand when it is added: none jumps.
     """
 
     _KIND: ClassVar[int]
 
     def __init__(self, body1: BodyNode, body2: BodyNode | None = None) -> None:
-        self.body1 = body1
-        self.body2 = body2
+        self._bodies = body1, body2
+        self._point = np.zeros(3)
+        self._axis = np.zeros(3)
         self._added: tuple[World, int] | None = None
 
+    @property
+    def body1(self) -> BodyNode:
+        """The first body."""
+        return self._bodies[0]
+
+    @property
+    def body2(self) -> BodyNode | None:
+        """The second body, None for the world."""
+        return self._bodies[1]
+
     def add_to_world(self, world: World) -> None:
-        """Let it act, on the bodies as they stand now. ValueError if a body is not in the world, or it acts already."""
-        point = self._point()
+        """Let it act, on the bodies as they stand now. ValueError if a body is not in the world, or it was added."""
         if self.is_active():
             raise ValueError(f"{self!r} is in a world already")
-        if self.body2 is None:
-            number = world._handle.add_constraint_to_world(self._KIND, self.body1._handle, point)
+        first, second = self._bodies
+        if second is None:
+            number = world._handle.add_constraint_to_world(self._KIND, first._handle, self._point, self._axis)
         else:
-            number = world._handle.add_constraint_between(self._KIND, self.body1._handle, self.body2._handle, point)
+            number = world._handle.add_constraint_between(
+                self._KIND, first._handle, second._handle, self._point, self._axis
+            )
         self._added = world, number
 
     def remove(self) -> None:
-        """Let go; ValueError if it does not act."""
+        """Take it away; ValueError if it is in no world."""
         if self._added is None or not self._added[0]._handle.remove_constraint(self._added[1]):
             raise ValueError(f"{self!r} is in no world")
         self._added = None
 
     def is_active(self) -> bool:
-        """Whether it acts: it was added, and neither it nor one of its skeletons was removed."""
+        """Whether it is in a world: it was added, and neither it nor one of its skeletons was removed."""
         return self._added is not None and any(self == other for other in self._added[0].constraints)
 
-    def _point(self) -> ArrayLike:
-        return np.zeros(3)
+    @property
+    def enabled(self) -> bool:
+        """Whether it holds; a constraint that is switched off stays in its world. ValueError if it is in none."""
+        world, number = self._place()
+        return world._handle.constraint_is_enabled(number)
+
+    @enabled.setter
+    def enabled(self, on: bool) -> None:
+        world, number = self._place()
+        world._handle.set_constraint_enabled(number, on)
+
+    def force(self) -> NDArray[np.float64]:
+        """What it did to body1 in the last step, world axes, shape (3,), N; on body2 it is the opposite."""
+        return self._wrench()[3:]
+
+    def moment(self) -> NDArray[np.float64]:
+        """Of what it did to body1 in the last step, about body1's origin, world axes, shape (3,), N m."""
+        return self._wrench()[:3]
+
+    def _wrench(self) -> NDArray[np.float64]:
+        world, number = self._place()
+        return world._handle.constraint_wrench(number)
+
+    def _place(self) -> tuple[World, int]:
+        if self._added is None:
+            raise ValueError(f"{self!r} is in no world: add_to_world() adds it")
+        return self._added
+
+    def _move(self, target: NDArray[np.float64]) -> None:
+        """Move where it holds body1 in the world."""
+        world, number = self._place()
+        world._handle.set_constraint_target(number, target)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Constraint) or self._added is None or other._added is None:
@@ -82,10 +121,27 @@ class BallJointConstraint(Constraint):
 
     def __init__(self, body1: BodyNode, body2: BodyNode | None, jointPos: ArrayLike) -> None:
         super().__init__(body1, body2)
-        self.jointPos: NDArray[np.float64] = np.array(jointPos, dtype=float)
+        self._point = _vector(jointPos, "jointPos")
 
-    def _point(self) -> ArrayLike:
-        return self.jointPos
+    @property
+    def jointPos(self) -> NDArray[np.float64]:  # noqa: N802 (the original's name)
+        """Where the point was at the time of add_to_world(), world frame, shape (3,), m. Set before that."""
+        return self._point.copy()
+
+    @jointPos.setter
+    def jointPos(self, point: ArrayLike) -> None:  # noqa: N802
+        if self.is_active():
+            raise ValueError("the bodies are held already: set_target() moves a point that is held in the world")
+        self._point = _vector(point, "jointPos")
+
+    def set_target(self, point: ArrayLike) -> None:
+        """Hold body1's point at another one of the world, shape (3,), m: the body is pulled there.
+
+        ValueError if there is a second body.
+        """
+        target = np.eye(4)
+        target[:3, 3] = _vector(point, "a target")
+        self._move(target)
 
 
 class WeldJointConstraint(Constraint):
@@ -103,12 +159,49 @@ class WeldJointConstraint(Constraint):
 
     _KIND = 1
 
+    def set_target(self, pose: ArrayLike) -> None:
+        """Hold body1 in another pose in the world, shape (4, 4), m.
 
-_KINDS: tuple[type[Constraint], ...] = (BallJointConstraint, WeldJointConstraint)
+        It is pulled there. ValueError if there is a second body.
+        """
+        self._move(np.asarray(pose, dtype=float))
+
+
+class RevoluteJointConstraint(Constraint):
+    """Lets two bodies, or one in the world, turn about an axis alone: the closure of a four-bar.
+
+    Two ball joint constraints on the axis, 0.2 m apart.
+
+    Parameters
+    ----------
+    body1, body2
+        Two bodies of one world; None as the second for the world itself.
+    point, axis
+        A point of the axis and its direction, world frame, shape (3,), m and no unit, at the time of add_to_world().
+    """
+
+    _KIND = 2
+
+    def __init__(self, body1: BodyNode, body2: BodyNode | None, point: ArrayLike, axis: ArrayLike) -> None:
+        super().__init__(body1, body2)
+        self._point, self._axis = _vector(point, "point"), _vector(axis, "axis")
+
+    @property
+    def point(self) -> NDArray[np.float64]:
+        """A point of the axis at the time of add_to_world(), world frame, shape (3,), m."""
+        return self._point.copy()
+
+    @property
+    def axis(self) -> NDArray[np.float64]:
+        """The axis at the time of add_to_world(), world frame, shape (3,), no unit."""
+        return self._axis.copy()
+
+
+_KINDS: tuple[type[Constraint], ...] = (BallJointConstraint, WeldJointConstraint, RevoluteJointConstraint)
 
 
 def of_world(world: World) -> list[Constraint]:
-    """Those that act in a world, in the order in which they were added."""
+    """Those of a world, in the order in which they were added."""
     return [_read(world, world._handle.constraint(i)) for i in range(world._handle.num_constraints())]
 
 
@@ -117,7 +210,13 @@ def _read(world: World, row: NDArray[np.float64]) -> Constraint:
     made = _KINDS[kind].__new__(_KINDS[kind])
     first = world.skeletons[skeleton1].bodynodes[body1]
     Constraint.__init__(made, first, None if body2 < 0 else world.skeletons[skeleton2].bodynodes[body2])
-    if isinstance(made, BallJointConstraint):
-        made.jointPos = row[6:9].copy()
+    made._point, made._axis = row[6:9].copy(), row[9:12].copy()
     made._added = world, number
     return made
+
+
+def _vector(values: ArrayLike, what: str) -> NDArray[np.float64]:
+    vector = np.array(values, dtype=float)
+    if vector.shape != (3,):
+        raise ValueError(f"{what} has the shape (3,), got {vector.shape}")
+    return vector

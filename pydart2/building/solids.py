@@ -77,10 +77,11 @@ def cylinder(radius: float, height: float) -> Solid:
 def capsule(radius: float, length: float) -> Solid:
     """A cylinder along z, `length` long, with half a sphere at each end."""
     tube, ball = pi * radius**2 * length, 4 / 3 * pi * radius**3
-    along = (tube * radius**2 / 2 + ball * 0.4 * radius**2) / (tube + ball)
+    tubes = length / (length + 4 / 3 * radius)  # share of the volume
+    along = (tubes / 2 + (1 - tubes) * 0.4) * radius**2
     # Each half has its centre of mass 3/8 of the radius beyond the end of the tube.
     across_ball = 0.4 * radius**2 + length**2 / 4 + 3 / 8 * length * radius
-    across = (tube * (radius**2 / 4 + length**2 / 12) + ball * across_ball) / (tube + ball)
+    across = tubes * (radius**2 / 4 + length**2 / 12) + (1 - tubes) * across_ball
     return Solid("CapsuleShape", (radius, length), tube + ball, _round(along, across))
 
 

@@ -110,7 +110,13 @@ void Sweeps::prepare()
         view.W.noalias() += view.Jb * view.Yb.transpose();
       view.mixing += block.force_mixing * view.W.diagonal();
       view.W.diagonal() += view.mixing;
-      block.movable = view.W.diagonal().minCoeff() > 0.0;
+      const double most = view.W.diagonal().maxCoeff();
+      block.movable = most > 0.0;
+      for (int row = 0; row < block.size; ++row)
+        if (view.W(row, row) <= 1e-14 * most) { // moves nothing, as a force across a planar robot; the others do
+          view.W(row, row) = most;
+          view.b[row] = 0.0;
+        }
       if (block.movable)
         view.inverse = view.W.inverse();
     });

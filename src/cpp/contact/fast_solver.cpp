@@ -115,8 +115,16 @@ void FastConstraintSolver::solveConstrainedGroup(ConstrainedGroup& group)
   solve_exactly(group);
 }
 
+void FastConstraintSolver::scale_error(dart::constraint::ConstraintBase& constraint) const
+{
+  if (const double engine = engine_error_reduction(); error_reduction_ != engine)
+    engine::scale_error(constraint, error_reduction_ / engine);
+}
+
 void FastConstraintSolver::solve_exactly(ConstrainedGroup& group)
 {
+  for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
+    scale_error(*group.getConstraint(i));
   check_memory(group);
   if (solver_ == Solver::dart || shared_) {
     remove_empty_constraints(group);

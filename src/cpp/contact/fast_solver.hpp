@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dart/constraint/BoxedLcpConstraintSolver.hpp>
+#include <dart/constraint/DynamicJointConstraint.hpp>
 #include <dart/simulation/World.hpp>
 #include <limits>
 #include <string>
@@ -54,6 +55,11 @@ public:
   void set_memory_limit(double bytes) { memory_limit_ = bytes; }
   double memory_limit() const { return memory_limit_; }
 
+  /// How much of the error of ball and weld joint constraints a step takes away, 0 to 1.
+  void set_error_reduction(double share) { error_reduction_ = share; }
+  double error_reduction() const { return error_reduction_; }
+  static double engine_error_reduction() { return dart::constraint::DynamicJointConstraint::getErrorReductionParameter(); }
+
   /// Takes over what `other` has, its collision group included: a new one would change the order of the contacts.
   void setFromOtherConstraintSolver(const dart::constraint::ConstraintSolver& other) override;
 
@@ -66,6 +72,7 @@ private:
   void gather_from_groups();
   void add_joint_constraints(const dart::dynamics::Skeleton& skeleton);
   bool all_known() const;
+  void scale_error(dart::constraint::ConstraintBase& constraint) const;
   void solve_exactly(dart::constraint::ConstrainedGroup& group);
   bool groups_share_skeletons();
   void check_memory(const dart::constraint::ConstrainedGroup& group) const;
@@ -77,6 +84,7 @@ private:
   bool contact_reduction_ = false;
   bool warm_start_ = false;
   double memory_limit_ = 1e9;
+  double error_reduction_ = engine_error_reduction();
   bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
   ConstraintMatrix matrix_;
   DantzigLcp dantzig_lcp_;

@@ -74,6 +74,7 @@ void FastConstraintSolver::gather()
   mConstrainedGroups.clear();
   const auto take = [this](const ConstraintBasePtr& constraint) {
     constraint->update();
+    scale_error(*constraint);
     if (constraint->isActive())
       iterative_.add(constraint);
   };
@@ -135,8 +136,10 @@ void FastConstraintSolver::gather_from_groups()
     for (const auto& constraint : constraints)
       if (const auto* contact = engine::contact(*constraint))
         iterative_.add(const_cast<Contact&>(*contact)); // the engine's result
-      else
+      else {
+        scale_error(*constraint);
         iterative_.add(constraint);
+      }
   }
 }
 

@@ -377,6 +377,7 @@ void IterativeSolver::apply(double time_step)
       constraint.applyImpulse(system_.x.data() + block.row);
       constraint.excite();
     } else {
+      engine::store_impulses(*constraints_[static_cast<std::size_t>(source.constraint)], system_.x.data() + block.row);
       for (const std::size_t side : {0, 1})
         if (source.places[side].mover != none)
           apply_wrench(

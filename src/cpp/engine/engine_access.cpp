@@ -60,6 +60,12 @@ struct BallJacobian1 : Private<Ball, BallJacobian> { friend constexpr type membe
 struct BallJacobian2 : Private<Ball, BallJacobian> { friend constexpr type member(BallJacobian2); };
 struct WeldJacobian1 : Private<Weld, const Eigen::Matrix6d> { friend constexpr type member(WeldJacobian1); };
 struct WeldJacobian2 : Private<Weld, Eigen::Matrix6d> { friend constexpr type member(WeldJacobian2); };
+struct BallTarget : Private<Ball, Eigen::Vector3d> { friend constexpr type member(BallTarget); };
+struct WeldTarget : Private<Weld, Eigen::Isometry3d> { friend constexpr type member(WeldTarget); };
+struct BallViolation : Private<Ball, Eigen::Vector3d> { friend constexpr type member(BallViolation); };
+struct WeldViolation : Private<Weld, Eigen::Vector6d> { friend constexpr type member(WeldViolation); };
+struct BallImpulse : Private<Ball, double[3]> { friend constexpr type member(BallImpulse); };
+struct WeldImpulse : Private<Weld, double[6]> { friend constexpr type member(WeldImpulse); };
 struct LimitJoint : Private<JointConstraint, Joint*> { friend constexpr type member(LimitJoint); };
 struct LimitActive : Private<JointConstraint, Eigen::Matrix<bool, 6, 1>> { friend constexpr type member(LimitActive); };
 struct FrictionJoint : Private<Friction, Joint*> { friend constexpr type member(FrictionJoint); };
@@ -81,6 +87,12 @@ template struct Reveal<BallJacobian1, &Ball::mJacobian1>;
 template struct Reveal<BallJacobian2, &Ball::mJacobian2>;
 template struct Reveal<WeldJacobian1, &Weld::mJacobian1>;
 template struct Reveal<WeldJacobian2, &Weld::mJacobian2>;
+template struct Reveal<BallTarget, &Ball::mOffset2>;
+template struct Reveal<WeldTarget, &Weld::mRelativeTransform>;
+template struct Reveal<BallViolation, &Ball::mViolation>;
+template struct Reveal<WeldViolation, &Weld::mViolation>;
+template struct Reveal<BallImpulse, &Ball::mOldX>;
+template struct Reveal<WeldImpulse, &Weld::mOldX>;
 template struct Reveal<LimitJoint, &JointConstraint::mJoint>;
 template struct Reveal<LimitActive, &JointConstraint::mActive>;
 template struct Reveal<FrictionJoint, &Friction::mJoint>;
@@ -126,6 +138,39 @@ JointRows dof_rows(Joint* joint, const Active& active)
 }
 
 } // namespace
+
+void set_target(ConstraintBase& constraint, const Eigen::Isometry3d& target)
+{
+  if (auto* ball = dynamic_cast<Ball*>(&constraint))
+    ball->*member(BallTarget()) = target.translation();
+  else if (auto* weld = dynamic_cast<Weld*>(&constraint))
+    weld->*member(WeldTarget()) = target;
+}
+
+void scale_error(ConstraintBase& constraint, double factor)
+{
+  if (auto* ball = dynamic_cast<Ball*>(&constraint))
+    ball->*member(BallViolation()) *= factor;
+  else if (auto* weld = dynamic_cast<Weld*>(&constraint))
+    weld->*member(WeldViolation()) *= factor;
+}
+
+void store_impulses(ConstraintBase& constraint, const double* impulses)
+{
+  if (auto* ball = dynamic_cast<Ball*>(&constraint))
+    std::copy_n(impulses, 3, ball->*member(BallImpulse()));
+  else if (auto* weld = dynamic_cast<Weld*>(&constraint))
+    std::copy_n(impulses, 6, weld->*member(WeldImpulse()));
+}
+
+Eigen::Vector6d impulse_on_first(const ConstraintBase& constraint)
+{
+  if (const auto* ball = dynamic_cast<const Ball*>(&constraint))
+    return (ball->*member(BallJacobian1())).transpose() * Eigen::Map<const Eigen::Vector3d>(ball->*member(BallImpulse()));
+  if (const auto* weld = dynamic_cast<const Weld*>(&constraint))
+    return (weld->*member(WeldJacobian1())).transpose() * Eigen::Map<const Eigen::Vector6d>(weld->*member(WeldImpulse()));
+  return Eigen::Vector6d::Zero();
+}
 
 void read_rows(const ConstraintBase& constraint, Rows& rows)
 {

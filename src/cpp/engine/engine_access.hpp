@@ -57,6 +57,19 @@ const dart::collision::Contact* contact(const dart::constraint::ConstraintBase& 
 /// does; false, and nothing, for other constraints.
 bool store_force(dart::constraint::ConstraintBase& constraint, const double* impulses, double time_step);
 
+/// Where in the world a ball joint constraint without a second body holds its point, or a weld its body.
+void set_target(dart::constraint::ConstraintBase& constraint, const Eigen::Isometry3d& target);
+
+/// Scales the error that a ball or weld joint constraint has found, and is about to reduce.
+void scale_error(dart::constraint::ConstraintBase& constraint, double factor);
+
+/// Lets a ball or weld joint constraint know the impulses of its rows, as its applyImpulse() does, and does not apply them.
+void store_impulses(dart::constraint::ConstraintBase& constraint, const double* impulses);
+
+/// What a ball or weld joint constraint did to its first body in the last step: moment and force times the step, in the
+/// body's frame.
+Eigen::Vector6d impulse_on_first(const dart::constraint::ConstraintBase& constraint);
+
 /// (J' I J)^-1 of a joint, I the articulated inertia of its child body without implicit damping and springs. Valid once
 /// the articulated inertia is up to date (BodyNode::getArticulatedInertia). The member is protected: a derived class
 /// may name it.

@@ -11,6 +11,7 @@
 #include "base/messages.hpp"
 #include "collision/detector.hpp"
 #include "contact/fast_solver.hpp"
+#include "engine/engine_access.hpp"
 #include "loading/loading.hpp"
 #include "state/contact.hpp"
 #include "state/manager.hpp"
@@ -138,7 +139,7 @@ void WorldHandle::remove_skeleton(long index)
   for (auto it = record.constraints.begin(); it != record.constraints.end();) {
     const bool uses = it->skeleton1 == skeleton || it->skeleton2 == skeleton;
     if (uses)
-      solver.removeConstraint(it->constraint);
+      remove(*it, solver);
     it = uses ? record.constraints.erase(it) : std::next(it);
   }
   auto& pairs = record.ignored_pairs;
@@ -353,6 +354,18 @@ void WorldHandle::set_max_contacts(long most)
   record.told_of_contact_limit = false;
 }
 
+double WorldHandle::constraint_error_reduction() const
+{
+  return fast_solver(*world().world).error_reduction();
+}
+
+void WorldHandle::set_constraint_error_reduction(double share)
+{
+  if (!(share >= 0.0 && share <= 1.0))
+    throw Error(Kind::value, "a share of an error is a number from 0 to 1, got " + std::to_string(share));
+  fast_solver(*world().world).set_error_reduction(share);
+}
+
 double WorldHandle::contact_memory_limit() const
 {
   return fast_solver(*world().world).memory_limit();
@@ -402,33 +415,39 @@ void WorldHandle::add_ball_joint_constraint(
     const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point)
 {
   check::finite(point, "joint position");
-  add_constraint(static_cast<int>(ConstraintRecord::Kind::ball), body1.body(), &body2.body(), point);
+  add_constraint(static_cast<int>(ConstraintRecord::Kind::ball), body1.body(), &body2.body(), point, Eigen::Vector3d::Zero());
 }
 
-int WorldHandle::add_constraint_to_world(long kind, const BodyNodeHandle& body, const Eigen::Vector3d& point)
+int WorldHandle::add_constraint_to_world(
+    long kind, const BodyNodeHandle& body, const Eigen::Vector3d& point, const Eigen::Vector3d& axis)
 {
-  check::finite(point, "joint position");
-  return add_constraint(kind, body.body(), nullptr, point);
+  return add_constraint(kind, body.body(), nullptr, point, axis);
 }
 
 int WorldHandle::add_constraint_between(
-    long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point)
+    long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point,
+    const Eigen::Vector3d& axis)
 {
-  check::finite(point, "joint position");
-  return add_constraint(kind, body1.body(), &body2.body(), point);
+  return add_constraint(kind, body1.body(), &body2.body(), point, axis);
 }
 
 int WorldHandle::add_constraint(
-    long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const Eigen::Vector3d& point)
+    long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const Eigen::Vector3d& point,
+    const Eigen::Vector3d& axis)
 {
   auto& record = world();
+  check::finite(point, "joint position");
   if (record.index_of(a.getSkeleton()) < 0 || (b && record.index_of(b->getSkeleton()) < 0))
     throw Error(Kind::value, "both bodies of a constraint must be in the world that it is added to");
   if (&a == b)
     throw Error(Kind::value, "a constraint needs two different bodies, got '" + a.getName() + "' twice");
   ConstraintRecord added;
-  added.kind = static_cast<ConstraintRecord::Kind>(check::index(kind, 2, "kind of constraint"));
-  added.id = record.constraints.empty() ? 1 : record.constraints.back().id + 1;
+  added.kind = static_cast<ConstraintRecord::Kind>(check::index(kind, 3, "kind of constraint"));
+  if (added.kind == ConstraintRecord::Kind::revolute) {
+    check::direction(axis, "the axis of a constraint");
+    added.axis = axis.stableNormalized();
+  }
+  added.id = ++record.last_constraint;
   added.body1 = &a;
   added.body2 = b;
   added.point = point;
@@ -442,8 +461,47 @@ void WorldHandle::constraint(long index, Output& out) const
   const auto& record = world();
   const auto& one = record.constraints[check::index(index, record.constraints.size(), "constraint")];
   const auto body = [](const dart::dynamics::BodyNode* b) { return b ? double(b->getIndexInSkeleton()) : -1.0; };
-  vector(out, 9) << double(one.id), double(one.kind), double(record.index_of(one.skeleton1)), body(one.body1),
-      one.skeleton2 ? double(record.index_of(one.skeleton2)) : -1.0, body(one.body2), one.point;
+  vector(out, 12) << double(one.id), double(one.kind), double(record.index_of(one.skeleton1)), body(one.body1),
+      one.skeleton2 ? double(record.index_of(one.skeleton2)) : -1.0, body(one.body2), one.point, one.axis;
+}
+
+ConstraintRecord& WorldHandle::constraint_of(long id) const
+{
+  for (auto& one : world().constraints)
+    if (one.id == id)
+      return one;
+  throw Error(Kind::destroyed, "this constraint was removed from its world, or a body that it held was");
+}
+
+bool WorldHandle::constraint_is_enabled(long id) const
+{
+  return constraint_of(id).enabled;
+}
+
+void WorldHandle::set_constraint_enabled(long id, bool on)
+{
+  enable(constraint_of(id), *world().world->getConstraintSolver(), on);
+}
+
+void WorldHandle::set_constraint_target(long id, const Eigen::Matrix4d& target)
+{
+  auto& one = constraint_of(id);
+  if (one.body2 != nullptr || one.kind == ConstraintRecord::Kind::revolute)
+    throw Error(Kind::value, "only a ball joint or a weld between a body and the world has a target that can be moved");
+  check::rigid(target, "the target of a constraint");
+  set_target(one, Eigen::Isometry3d(target));
+}
+
+Vector6d WorldHandle::constraint_wrench(long id) const
+{
+  const auto& one = constraint_of(id);
+  Vector6d wrench = Vector6d::Zero();
+  if (one.enabled)
+    for (const auto& part : one.parts)
+      wrench += engine::impulse_on_first(*part) / world().world->getTimeStep();
+  const Eigen::Matrix3d R = one.body1->getWorldTransform().linear();
+  wrench << R * wrench.head<3>().eval(), R * wrench.tail<3>().eval();
+  return wrench;
 }
 
 bool WorldHandle::remove_constraint(long id)
@@ -453,7 +511,7 @@ bool WorldHandle::remove_constraint(long id)
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.id == id; });
   if (found == all.end())
     return false;
-  record.world->getConstraintSolver()->removeConstraint(found->constraint);
+  remove(*found, *record.world->getConstraintSolver());
   all.erase(found);
   return true;
 }

@@ -95,6 +95,8 @@ public:
   /// How many contacts a step takes, 0 for as many as there are.
   long max_contacts() const;
   void set_max_contacts(long most);
+  double constraint_error_reduction() const;
+  void set_constraint_error_reduction(double share);
   double contact_memory_limit() const;
   void set_contact_memory_limit(double bytes);
 
@@ -110,12 +112,23 @@ public:
   void add_ball_joint_constraint(const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point);
   int num_constraints() const;
 
-  /// Kind: 0 ball, at a point of the world, 1 weld, as the bodies stand. Returns the id.
+  /// Kind: 0 ball, at a point of the world, 1 weld, as the bodies stand, 2 revolute, about an axis through a point.
+  /// Returns the id.
   int add_constraint_between(
-      long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point);
-  int add_constraint_to_world(long kind, const BodyNodeHandle& body, const Eigen::Vector3d& point);
+      long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point,
+      const Eigen::Vector3d& axis);
+  int add_constraint_to_world(
+      long kind, const BodyNodeHandle& body, const Eigen::Vector3d& point, const Eigen::Vector3d& axis);
 
-  /// Id, kind, skeleton and body id of the first body, of the second (-1 for the world), point (3).
+  /// Of an id; a constraint that is no longer there is an error.
+  bool constraint_is_enabled(long id) const;
+  void set_constraint_enabled(long id, bool on);
+  void set_constraint_target(long id, const Eigen::Matrix4d& target);
+
+  /// Moment about the first body's origin and force on it, world axes, in the last step.
+  Vector6d constraint_wrench(long id) const;
+
+  /// Id, kind, skeleton and body id of the first body, of the second (-1 for the world), point (3), axis (3).
   void constraint(long index, Output& out) const;
 
   /// False if there is none of this id.
@@ -166,7 +179,9 @@ public:
 
 private:
   int add_constraint(
-      long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const Eigen::Vector3d& point);
+      long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const Eigen::Vector3d& point,
+      const Eigen::Vector3d& axis);
+  ConstraintRecord& constraint_of(long id) const;
   explicit WorldHandle(WorldRef record);
   WorldRecord& world() const;
 

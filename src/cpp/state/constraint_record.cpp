@@ -4,6 +4,8 @@
 #include <dart/constraint/WeldJointConstraint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 
+#include "engine/engine_access.hpp"
+
 namespace pydart2 {
 
 using dart::constraint::BallJointConstraint;
@@ -13,17 +15,33 @@ using dart::constraint::WeldJointConstraint;
 
 namespace {
 
-ConstraintBasePtr make(const ConstraintRecord& record)
+ConstraintBasePtr ball(const ConstraintRecord& record, const Eigen::Vector3d& point)
 {
-  const bool ball = record.kind == ConstraintRecord::Kind::ball;
-  if (record.body2 == nullptr) {
-    if (ball)
-      return std::make_shared<BallJointConstraint>(record.body1, record.point);
+  if (record.body2 == nullptr)
+    return std::make_shared<BallJointConstraint>(record.body1, point);
+  return std::make_shared<BallJointConstraint>(record.body1, record.body2, point);
+}
+
+ConstraintBasePtr weld(const ConstraintRecord& record)
+{
+  if (record.body2 == nullptr)
     return std::make_shared<WeldJointConstraint>(record.body1);
-  }
-  if (ball)
-    return std::make_shared<BallJointConstraint>(record.body1, record.body2, record.point);
   return std::make_shared<WeldJointConstraint>(record.body1, record.body2);
+}
+
+/// The two balls of a revolute joint are a span of 0.2 m apart.
+std::vector<ConstraintBasePtr> make(const ConstraintRecord& record)
+{
+  constexpr double half_span = 0.1;
+  switch (record.kind) {
+  case ConstraintRecord::Kind::ball:
+    return {ball(record, record.point)};
+  case ConstraintRecord::Kind::weld:
+    return {weld(record)};
+  case ConstraintRecord::Kind::revolute:
+    return {ball(record, record.point - half_span * record.axis), ball(record, record.point + half_span * record.axis)};
+  }
+  return {};
 }
 
 Eigen::VectorXd positions(const dart::dynamics::SkeletonPtr& skeleton)
@@ -46,16 +64,44 @@ void add(ConstraintRecord& record, ConstraintSolver& solver)
   record.skeleton2 = record.body2 ? record.body2->getSkeleton() : nullptr;
   record.positions1 = positions(record.skeleton1);
   record.positions2 = positions(record.skeleton2);
-  record.constraint = make(record);
-  solver.addConstraint(record.constraint);
+  record.parts = make(record);
+  if (record.target)
+    set_target(record, *record.target);
+  if (record.enabled)
+    for (const auto& part : record.parts)
+      solver.addConstraint(part);
+}
+
+void remove(const ConstraintRecord& record, ConstraintSolver& solver)
+{
+  if (record.enabled)
+    for (const auto& part : record.parts)
+      solver.removeConstraint(part);
+}
+
+void enable(ConstraintRecord& record, ConstraintSolver& solver, bool on)
+{
+  if (on == record.enabled)
+    return;
+  remove(record, solver);
+  record.enabled = on;
+  if (on)
+    for (const auto& part : record.parts)
+      solver.addConstraint(part);
+}
+
+void set_target(ConstraintRecord& record, const Eigen::Isometry3d& target)
+{
+  record.target = target;
+  for (const auto& part : record.parts)
+    engine::set_target(*part, target);
 }
 
 void renew(ConstraintRecord& record, ConstraintSolver& solver)
 {
   const Eigen::VectorXd positions1 = positions(record.skeleton1), positions2 = positions(record.skeleton2);
   set_positions(record, record.positions1, record.positions2);
-  if (record.constraint)
-    solver.removeConstraint(record.constraint);
+  remove(record, solver);
   add(record, solver);
   set_positions(record, positions1, positions2);
 }

@@ -140,6 +140,17 @@ void visit_settings(Archive& archive, WorldRecord& record)
   });
 }
 
+void visit_error_reduction(Archive& archive, FastConstraintSolver& solver)
+{
+  const double engine = FastConstraintSolver::engine_error_reduction();
+  if (archive.part("error reduction", solver.error_reduction() != engine))
+    archive.number([&] { return solver.error_reduction(); }, [&](double share) {
+      if (!(share >= 0.0 && share <= 1.0))
+        Archive::refuse();
+      solver.set_error_reduction(share);
+    });
+}
+
 void visit_manner_of_steps(Archive& archive, WorldRecord& record)
 {
   if (!archive.part("manner of steps", record.deterministic || record.nan_at_blow_up))
@@ -152,9 +163,34 @@ void visit_kinds(Archive& archive, std::vector<ConstraintRecord>& constraints)
 {
   for (auto& record : constraints) {
     const auto kind = archive.count(static_cast<std::size_t>(record.kind));
-    record.kind = kind == 0 ? ConstraintRecord::Kind::ball : ConstraintRecord::Kind::weld;
+    if (kind > 2)
+      Archive::refuse();
+    record.kind = static_cast<ConstraintRecord::Kind>(kind);
     if (archive.count(record.body2 == nullptr) != 0)
       record.body2 = nullptr;
+  }
+}
+
+/// What became of constraints after they were made, and the axes of revolute ones.
+void visit_settings(Archive& archive, std::vector<ConstraintRecord>& constraints)
+{
+  for (auto& record : constraints) {
+    archive.vector(
+        [&] { return record.axis; },
+        [&](const Eigen::VectorXd& axis) {
+          check::finite(Eigen::Vector3d(axis), "the axis of a constraint");
+          record.axis = axis;
+        });
+    record.enabled = archive.count(record.enabled) != 0;
+    if (archive.count(record.target.has_value()) != 0) {
+      archive.vector(
+          [&]() -> Eigen::VectorXd { return Eigen::Map<const Eigen::VectorXd>(record.target->data(), 16); },
+          [&](const Eigen::VectorXd& numbers) {
+            record.target.emplace();
+            record.target->matrix() = Eigen::Map<const Eigen::Matrix4d>(numbers.data());
+            check::rigid(record.target->matrix(), "the target of a constraint");
+          });
+    }
   }
 }
 
@@ -169,12 +205,11 @@ void visit_constraints(Archive& archive, WorldRecord& world)
     solver.removeAllConstraints();
     world.constraints.assign(count, ConstraintRecord{});
   }
-  int id = 0;
   for (auto& record : world.constraints) {
     record.body1 = visit_reference(archive, world, record.body1);
     auto* const body2 = visit_reference(archive, world, record.body2 ? record.body2 : record.body1);
     if (archive.is_in()) {
-      record.id = ++id;
+      record.id = ++world.last_constraint;
       record.body2 = body2;
       record.skeleton1 = record.body1->getSkeleton();
       record.skeleton2 = body2->getSkeleton();
@@ -189,6 +224,11 @@ void visit_constraints(Archive& archive, WorldRecord& world)
   }
   if (archive.part("constraint kinds", !plain)) // earlier versions had ball joints between two bodies alone
     visit_kinds(archive, world.constraints);
+  const bool as_made = std::all_of(world.constraints.begin(), world.constraints.end(), [](const auto& record) {
+    return record.enabled && !record.target && record.kind != ConstraintRecord::Kind::revolute;
+  });
+  if (archive.part("constraint settings", !as_made))
+    visit_settings(archive, world.constraints);
   if (archive.is_in())
     for (auto& record : world.constraints) {
       if (record.body2 == nullptr)
@@ -252,6 +292,7 @@ void visit_model(Archive& archive, WorldRecord& record)
   visit_armature(archive, record);
   visit_settings(archive, record);
   visit_manner_of_steps(archive, record);
+  visit_error_reduction(archive, fast_solver(*record.world));
   const bool fast = archive.part("fast dynamics", record.dynamics == Dynamics::fast);
   record.dynamics = fast ? Dynamics::fast : Dynamics::engine;
 }

@@ -110,6 +110,7 @@ struct WorldRecord
   const std::string source; ///< ModelSource::packed() of what it was loaded from; empty if it was made empty.
   std::vector<SkeletonRef> skeletons;
   std::vector<ConstraintRecord> constraints;
+  int last_constraint = 0; ///< The highest id so far.
   std::vector<std::pair<dart::dynamics::BodyNode*, dart::dynamics::BodyNode*>> ignored_pairs;
   std::atomic<State> state{State::ready};
   long frame = 0; ///< Steps since the last reset.
