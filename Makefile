@@ -84,8 +84,8 @@ fuzz: setup
 	$(VENV)/bin/python tests/crash/fuzz_threads.py $(FUZZ_SECONDS)
 
 bench: setup
+	$(VENV)/bin/pip install --quiet mujoco pin
 	$(VENV)/bin/python benchmarks/run_all.py
-	$(VENV)/bin/pip install --quiet mujoco
 	$(VENV)/bin/python benchmarks/rendering.py
 
 wheel: setup

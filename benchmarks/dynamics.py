@@ -1,8 +1,9 @@
-"""What a step takes with the engine's dynamics, with ours, and in MuJoCo: python benchmarks/dynamics.py.
+"""What a step takes with the engine's dynamics, with ours, and in others: python benchmarks/dynamics.py.
 
 Chains of revolute joints without contact, swinging from q = 3 / n; the scenes of the other benchmarks. The worlds
-step in turn in this process, many steps in one call; the chains go back to their first state after each. MuJoCo's part
-is left out where it is not installed (pip install mujoco).
+step in turn in this process, many steps in one call; the chains go back to their first state after each. Beside them
+stand MuJoCo's step and Pinocchio's forward dynamics alone, called from Python, each where it is installed
+(pip install mujoco pin).
 """
 
 from __future__ import annotations
@@ -95,6 +96,34 @@ def mujoco_call(count: int, steps: int) -> Call:
     return call
 
 
+def pinocchio_call(count: int, calls: int) -> Call:
+    """Pinocchio's accelerations of the chain at its first positions, where our own agree with them."""
+    import pinocchio
+
+    model, parent = pinocchio.Model(), 0
+    model.gravity.linear = np.array([0.0, -9.81, 0.0])
+    inertia = pinocchio.Inertia(MASS, np.array([0.0, -LENGTH / 2, 0.0]), np.diag(moments()))
+    for i in range(count):
+        joint = pinocchio.JointModelRZ() if i % 2 else pinocchio.JointModelRX()
+        place = pinocchio.SE3(np.eye(3), np.array([0.0, -LENGTH if i else 0.0, 0.0]))
+        parent = model.addJoint(parent, joint, place, f"link{i}")
+        model.appendBodyToJoint(parent, inertia, pinocchio.SE3.Identity())
+    data, q, still = model.createData(), swing(count), np.zeros(count)
+
+    ours = chain(count)
+    ours.skeletons[0].set_positions(q)
+    ours.step()
+    np.testing.assert_allclose(ours.skeletons[0].ddq, pinocchio.aba(model, data, q, still, still), rtol=1e-8, atol=1e-8)
+
+    def call() -> float:
+        begin = time.thread_time()
+        for _ in range(calls):
+            pinocchio.aba(model, data, q, still, still)
+        return (time.thread_time() - begin) / calls
+
+    return call
+
+
 def in_turn(calls: list[Call]) -> list[list[float]]:
     """The times of each."""
     for call in calls:
@@ -119,11 +148,12 @@ def chains() -> list[list[object]]:
         for world, name in zip(worlds, ("engine", "fast")):
             world.set_dynamics(name)
         calls = [our_call(world, steps, swing(count)) for world in worlds]
-        if find_spec("mujoco"):
-            calls.append(mujoco_call(count, steps))
-        engine, fast, *others = in_turn(calls)
+        competitors = {"mujoco": mujoco_call, "pinocchio": pinocchio_call}
+        found = [name for name in competitors if find_spec(name)]
+        engine, fast, *others = in_turn(calls + [competitors[name](count, steps) for name in found])
         assert worlds[0].x.tobytes() == worlds[1].x.tobytes()
-        beside = [ratio(fast, others[0])] if others else ["not installed"]
+        theirs = dict(zip(found, others))
+        beside = [ratio(fast, theirs[name]) if name in theirs else "not installed" for name in competitors]
         rows.append([f"chain of {count}", f"{statistics.median(engine) * 1e6:.3g} µs", ratio(engine, fast), *beside])
     return rows
 
@@ -145,7 +175,7 @@ def models() -> list[list[object]]:
 
         engine, fast = in_turn([partial(twenty_steps, world) for world in worlds])
         assert worlds[0].x.tobytes() == worlds[1].x.tobytes()
-        rows.append([scene.name, f"{statistics.median(engine) * 1e6:.3g} µs", ratio(engine, fast), ""])
+        rows.append([scene.name, f"{statistics.median(engine) * 1e6:.3g} µs", ratio(engine, fast), "", ""])
     return rows
 
 
@@ -153,10 +183,11 @@ def main() -> None:
     """A table."""
     print(
         "## Dynamics\n\n"
-        '`set_dynamics("fast")` beside the engine\'s, which gives the same bits, and beside MuJoCo (Euler, no\n'
-        "contacts): how many times as fast as the engine, and its time as a ratio to MuJoCo's; median (range).\n"
+        '`set_dynamics("fast")` beside the engine\'s, which gives the same bits, beside MuJoCo (Euler, no contacts),\n'
+        "and beside Pinocchio's `aba` alone, called from Python: how many times as fast as the engine, and its time\n"
+        "as a ratio to MuJoCo's step and to `aba`; median (range).\n"
     )
-    print(table(["scene", "engine", "engine / fast", "fast / MuJoCo"], chains() + models()))
+    print(table(["scene", "engine", "engine / fast", "fast / MuJoCo", "fast / aba"], chains() + models()))
 
 
 if __name__ == "__main__":
