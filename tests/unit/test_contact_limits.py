@@ -57,6 +57,25 @@ def test_a_limit_is_a_setting_and_says_so_once(caplog: pytest.LogCaptureFixture)
     assert world.collision_result.num_contacts() >= 120
 
 
+def test_a_group_too_large_for_an_exact_solver_is_named_once(caplog: pytest.LogCaptureFixture) -> None:
+    """Ten boxes that touch have some three hundred rows, forty more than a thousand."""
+    pydart2.set_verbose(True)
+    world = pydart2.World(0.002, up="z")
+    world.add_ground()
+    world.set_collision_detector("native")
+    for i in range(40):
+        world.add_box([0.2, 0.2, 0.2], 1.0, position=[0.1999 * (i % 8), 0.1999 * (i // 8), 0.0999])
+        if i == 9:
+            with caplog.at_level(logging.WARNING, "pydart2"):
+                world.step()
+            assert caplog.records == []
+    with caplog.at_level(logging.WARNING, "pydart2"):
+        world.step()
+        world.step()
+    [record] = caplog.records
+    assert "rows" in record.getMessage() and 'set_constraint_solver("iterative")' in record.getMessage()
+
+
 @pytest.mark.parametrize("most", [0, -1, -7, 2**31])
 def test_a_limit_is_positive(most: int) -> None:
     world = pydart2.World(0.001)

@@ -125,6 +125,7 @@ void FastConstraintSolver::solve_exactly(ConstrainedGroup& group)
 {
   for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
     scale_error(*group.getConstraint(i));
+  largest_group_ = std::max(largest_group_, static_cast<int>(group.getTotalDimension()));
   check_memory(group);
   if (solver_ == Solver::dart || shared_) {
     remove_empty_constraints(group);

@@ -5,6 +5,7 @@
 #include <dart/simulation/World.hpp>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "contact/constraint_matrix.hpp"
 #include "contact/dantzig_lcp.hpp"
@@ -60,6 +61,9 @@ public:
   double error_reduction() const { return error_reduction_; }
   static double engine_error_reduction() { return dart::constraint::DynamicJointConstraint::getErrorReductionParameter(); }
 
+  /// Rows of the largest group that was solved exactly, since the last call.
+  int take_largest_group() { return std::exchange(largest_group_, 0); }
+
   /// Takes over what `other` has, its collision group included: a new one would change the order of the contacts.
   void setFromOtherConstraintSolver(const dart::constraint::ConstraintSolver& other) override;
 
@@ -84,6 +88,7 @@ private:
   bool contact_reduction_ = false;
   bool warm_start_ = false;
   double memory_limit_ = 1e9;
+  int largest_group_ = 0;
   double error_reduction_ = engine_error_reduction();
   bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
   ConstraintMatrix matrix_;

@@ -213,6 +213,22 @@ void check_range(const WorldRecord& record, bool ode, double time)
 
 } // namespace
 
+namespace {
+
+/// The exact solvers take time with the cube of the rows of a group: from here on, tens of milliseconds a step.
+constexpr int large_group = 1000;
+
+void tell_of_large_groups(WorldRecord& record, double time)
+{
+  const int rows = fast_solver(*record.world).take_largest_group();
+  if (rows <= large_group || std::exchange(record.told_of_large_group, true))
+    return;
+  dtwarn << "[World] at t = " << time << " s one group of bodies that touch has contacts and constraints of " << rows
+         << " rows, for which an exact solver takes long; set_constraint_solver(\"iterative\") takes time with their number\n";
+}
+
+} // namespace
+
 void solve_constraints(WorldRecord& record, double time)
 {
   auto& solver = *record.world->getConstraintSolver();
@@ -224,6 +240,7 @@ void solve_constraints(WorldRecord& record, double time)
   const auto lock = ode ? lock_ode() : std::unique_lock<OdeMutex>();
   native_group(solver); // the order of the shapes
   fast_solver(*record.world).solve_step();
+  tell_of_large_groups(record, time);
   const auto most = solver.getCollisionOption().maxNumContacts;
   if (!record.told_of_contact_limit && solver.getLastCollisionResult().getNumContacts() >= most) {
     record.told_of_contact_limit = true;

@@ -118,6 +118,7 @@ struct WorldRecord
   bool shapes_changed = false; ///< Since the detector got them, which then has them in another order than a clone's.
   Dynamics dynamics = default_dynamics();
   bool told_of_contact_limit = false; ///< The warning came.
+  bool told_of_large_group = false;
   bool deterministic = false; ///< Each step begins without what detectors and constraints remember.
   bool nan_at_blow_up = false; ///< Instead of an error.
   bool blown_up = false; ///< Some skeleton reads NaN.
