@@ -17,6 +17,7 @@ from typing import Any
 
 from pydart2.gui.callbacks import Callbacks
 from pydart2.gui.pacing import Pacer
+from pydart2.recording import Recording
 
 
 class Mode(enum.Enum):
@@ -151,6 +152,15 @@ class Runtime:
         with self.guarded():
             return int(getattr(getattr(self.sim, "recording", None), "first_frame", 0))
         return 0
+
+    @property
+    def frame_time(self) -> float | None:
+        """Simulated time of the frame that is shown, s; None if there is no recording of it."""
+        with self.guarded():
+            recording = getattr(self.sim, "recording", None)
+            if isinstance(recording, Recording) and self.first_frame <= self.frame < self.num_frames:
+                return float(recording.t[self.frame - self.first_frame])
+        return None
 
     def set_frame(self, frame: int) -> bool:
         """Show a recorded frame; False if it is not kept."""

@@ -93,6 +93,7 @@ def test_slider_scrubs_and_anim_replays(make_window: MakeWindow, cubes: pydart2.
     states = [cubes.recording.states(i) for i in (0, 77, 200)] if cubes.recording else []
     window.rangeSlider.setValue(77)
     assert (cubes.x == states[1]).all()
+    assert window.statusView.frame.text() == "frame 77 of 200, 0.077 s"
     for key, frame in ((Qt.Key_Home, 0), (Qt.Key_Right, 1), (Qt.Key_Left, 0), (Qt.Key_End, 200)):
         QTest.keyClick(window, key)
         assert window.runtime.frame == window.rangeSlider.value() == frame
@@ -400,6 +401,20 @@ def test_an_error_in_user_code_is_shown_and_can_be_dismissed(
     click(window, window.playAction)
     wait_for(lambda: window.sim.frame > 5)
     assert "gain is 1 / 0" in capsys.readouterr().err
+
+
+def test_long_words_push_nothing_off_the_screen(make_window: MakeWindow, cubes: pydart2.World) -> None:
+    """Neither a long error nor a long status widens the window or narrows the inspector."""
+    window = make_window(cubes)
+    window.resize(1400, 800)
+    spin(0.2)
+    before = window.width(), window.inspector.width()
+    window.errorPane.show_error("ValueError: " + "w" * 400)
+    cubes.status = lambda: "status " * 200  # type: ignore[attr-defined]
+    window.synchronize()
+    spin(0.2)
+    assert (window.width(), window.inspector.width()) == before
+    assert window.minimumSizeHint().width() < 1400
 
 
 @pytest.mark.parametrize("hook", ["render_with_ri", "draw_with_ri", "status", "on_key_press", "render"])

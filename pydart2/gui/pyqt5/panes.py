@@ -6,7 +6,16 @@ from html import escape
 
 from PyQt5.QtCore import Qt, pyqtSignal
 from PyQt5.QtGui import QFontDatabase, QTextCursor
-from PyQt5.QtWidgets import QApplication, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import (
+    QApplication,
+    QHBoxLayout,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
 
 from pydart2.gui.user_input import DRAGS, help_rows
 
@@ -59,10 +68,12 @@ class ErrorPane(QWidget):
         super().__init__(parent)
         self.title = QLabel()
         self.title.setObjectName("error")
+        self.title.setWordWrap(True)
+        self.title.setSizePolicy(QSizePolicy.Ignored, QSizePolicy.Preferred)  # long words make no window wider
         self.text = QPlainTextEdit()
         self.text.setObjectName("traceback")
         self.text.setReadOnly(True)
-        self.text.setLineWrapMode(QPlainTextEdit.NoWrap)
+        self.text.setLineWrapMode(QPlainTextEdit.WidgetWidth)
         self.text.setFont(QFontDatabase.systemFont(QFontDatabase.FixedFont))
         copy, dismiss = QPushButton("Copy"), QPushButton("Dismiss")
         copy.clicked.connect(lambda: QApplication.clipboard().setText(self.text.toPlainText()))

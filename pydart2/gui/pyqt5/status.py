@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from PyQt5.QtWidgets import QLabel, QStatusBar
+from PyQt5.QtWidgets import QLabel, QSizePolicy, QStatusBar
 
 from pydart2.gui.runtime import Runtime
 
@@ -15,13 +15,14 @@ class StatusView:
     Attributes
     ----------
     text, frame, pace : QLabel
-        The simulation's own words; `frame 120 of 431`; `0.98× real time`.
+        The simulation's own words; `frame 120 of 431, 0.120 s`; `0.98× real time`.
     """
 
     def __init__(self, bar: QStatusBar) -> None:
         bar.setSizeGripEnabled(False)
         self.text, self.frame, self.pace = QLabel(), QLabel(), QLabel()
         self.pace.setToolTip("Simulated seconds per second, over the last second")
+        self.text.setSizePolicy(QSizePolicy.Ignored, QSizePolicy.Preferred)  # long ones make no window wider
         bar.addWidget(self.text, 1)
         for label in (self.frame, self.pace):
             label.setMinimumWidth(130)
@@ -32,7 +33,9 @@ class StatusView:
         own = str(runtime.sim) if runtime.sim is not None else "No simulation: drop a model file on the window"
         _set(self.text, own if status is None else str(status))
         frames = runtime.num_frames
-        _set(self.frame, f"frame {runtime.frame} of {frames - 1}" if frames else "")
+        time = runtime.frame_time
+        at = "" if time is None else f", {time:.3f} s"
+        _set(self.frame, f"frame {runtime.frame} of {frames - 1}{at}" if frames else "")
         _set(self.pace, pace_text(runtime))
 
 
