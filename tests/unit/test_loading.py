@@ -517,14 +517,17 @@ assert own == group and os.waitpid(child, 0)[1] == 0
             pytest.fail("a helper outlives its user")
 
 
-def test_a_new_text_takes_5_ms() -> None:
-    """The best of many, as others use the processors too; each on its own is new."""
-    times = []
+def test_a_new_text_takes_a_few_starts_of_a_program() -> None:
+    """2 to 3 ms where a program that does nothing takes half a millisecond; 20 before there was a helper that stays."""
+    load, start = [], []
     for i in range(40):
         begin = time.perf_counter()
         World(0.001).add_skeleton(URDF.replace("crane", f"new{i}"))
-        times.append(time.perf_counter() - begin)
-    assert min(times) < 5e-3
+        load.append(time.perf_counter() - begin)
+        begin = time.perf_counter()
+        subprocess.run(["true"], check=True)
+        start.append(time.perf_counter() - begin)
+    assert min(load) < 10.0 * min(start)
 
 
 def test_no_line_is_longer_than_needed() -> None:
