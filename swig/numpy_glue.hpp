@@ -176,11 +176,14 @@ inline void raise_own(const char* name, const char* message)
 /// Hands what the engine printed to Python's logging (pydart2/messages.py). An error that is set stays so.
 inline void log_messages()
 {
-  if (!messages::any())
+  thread_local bool importing = false; // in which the collector may free a world, which may print
+  if (importing || !messages::any())
     return;
   PyObject *type, *value, *traceback;
   PyErr_Fetch(&type, &value, &traceback);
+  importing = true;
   PyObject* module = PyImport_ImportModule("pydart2.messages");
+  importing = false;
   for (const auto& [level, text] : messages::take()) {
     PyObject* message = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
     PyObject* done = module && message ? PyObject_CallMethod(module, "log", "iO", static_cast<int>(level), message) : nullptr;

@@ -75,6 +75,24 @@ def test_nothing_is_said_without_a_reader() -> None:
     assert run("pydart2.set_verbose(False)\n" + code) == ("", "")
 
 
+def test_a_message_while_the_glue_is_imported_waits() -> None:
+    """As when Python's collector frees a world in the middle of that import."""
+    code = f"""
+    class Middle:
+        def find_spec(self, name, path=None, target=None):
+            if name == "logging":
+                warn()
+    free = [pydart2.World(0.001, "{FREE}").skeletons[0] for _ in range(2)]
+    def warn():
+        free.pop().set_root_joint_to_trans_and_euler()
+    del sys.modules["logging"]
+    sys.meta_path.insert(0, Middle())
+    warn()
+    """
+    out, err = run(code)
+    assert out == "" and err.count("zero mass") == 2 and "ignored" not in err
+
+
 def test_repeats_are_limited(caplog: Any, capfd: Any) -> None:
     """Of 250 of the same: the first ten and the hundredth, with its number; after init() from the start."""
     for _ in range(2):
