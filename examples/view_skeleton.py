@@ -33,6 +33,6 @@ if __name__ == "__main__":
     print("    control-drag: translate camera")
 
     if args.headless:
-        rehearse(world, args, steps=0, camera=1)
+        rehearse(world, args, steps=0, camera=None)
     else:
         pydart.gui.viewer.launch(world)
