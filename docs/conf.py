@@ -22,13 +22,13 @@ html_css_files = ["pydart2.css"]
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 
-# Names in "Attributes" sections are looked up as if they were global, and short ones are found more than once.
-suppress_warnings = ["ref.python"]
+suppress_warnings = ["ref.python"]  # short names in annotations that several modules have
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_preserve_defaults = True
+autodoc_type_aliases = {"ArrayLike": "ArrayLike"}  # not the union of a dozen types that it is
 autodoc_default_options = {"members": True, "ignore-module-all": True, "show-inheritance": True}
 napoleon_google_docstring = False
 napoleon_use_rtype = False
-napoleon_use_ivar = True
+napoleon_custom_sections = [("Attributes", "params_style")]  # a list; by itself each would be a member once more

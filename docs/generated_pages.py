@@ -7,14 +7,12 @@ window. All go to docs/examples, docs/api and docs/generated, which are not in t
 from __future__ import annotations
 
 import ast
-import importlib
-import pkgutil
-import re
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+
+import api_pages
 
 import pydart2
 from pydart2.cli.examples import example_names
@@ -24,7 +22,6 @@ from pydart2.utils.progress import progress
 DOCS = Path(__file__).parent
 PICTURES = DOCS / "examples" / "pictures"
 MODEL = {name: ["./data/sdf/atlas/atlas_v3_no_head.sdf"] for name in ("view_skeleton", "inspect_skeleton")}
-PRIVATE = re.compile(r"\._|\.(pydart2_api|flat_\w+)$")
 
 
 def setup(app: Any) -> dict[str, bool]:
@@ -40,10 +37,12 @@ def make_pages() -> None:
     for name, output in outputs.items():
         write(DOCS / "examples" / f"{name}.md", example_page(name, output))
     write(DOCS / "examples" / "gallery.md", gallery(names))
-    modules = list(public_modules())
-    for module in modules:
-        write(DOCS / "api" / f"{module}.rst", module_page(module))
-    write(DOCS / "api" / "index.rst", api_index(modules))
+    pages = api_pages.pages()
+    for name, text in pages.items():
+        write(DOCS / "api" / f"{name}.rst", text)
+    for path in (DOCS / "api").iterdir():
+        if path.name.removesuffix(".rst") not in pages:  # of a module that is no more
+            path.unlink()
     write(DOCS / "generated" / "keys.md", keys_table())
 
 
@@ -118,12 +117,19 @@ def script_path(name: str) -> str:
 
 
 def gallery(names: list[str]) -> str:
-    """The table of all examples."""
-    rows = "\n".join(f"| [{name}]({name}.md) | {docstring(name)[0]} |" for name in names)
+    """The clips of all examples as thumbnails, then those that show numbers."""
+    cards = "\n".join(card(name) for name in names if picture(name))
+    rows = "\n".join(f"| [{name}]({name}.md) | {docstring(name)[0]} |" for name in names if not picture(name))
     return f"""# Examples
 
-Each runs as `python -m pydart2 examples NAME`, with a window or with `--headless`; then it checks what it claims, and
-`--output DIR` saves a picture and a clip. `python -m pydart2 examples --copy DIR` copies all of them to be changed.
+Each runs as `pydart2 examples NAME`, with a window or with `--headless`; then it checks what it claims, and
+`--output DIR` saves a picture and a clip. `pydart2 examples --copy DIR` copies all of them to be changed.
+
+:::::{{container}} gallery
+{cards}
+:::::
+
+These print numbers:
 
 | example | what it shows |
 |---|---|
@@ -137,46 +143,14 @@ Each runs as `python -m pydart2 examples NAME`, with a window or with `--headles
 """
 
 
-# API reference
+def card(name: str) -> str:
+    """A thumbnail with its title, both linked to the example's page."""
+    title = docstring(name)[0]
+    return f"""::::{{container}} card
+[![{title}](pictures/{picture(name)})]({name}.md)
 
-
-def public_modules() -> Iterator[str]:
-    """The modules of the package that are meant for users."""
-    for info in pkgutil.walk_packages(pydart2.__path__, "pydart2."):
-        if not PRIVATE.search(info.name):
-            yield info.name
-
-
-def headline(module: str) -> str:
-    """The first line of a module's docstring."""
-    return (importlib.import_module(module).__doc__ or "").strip().partition("\n")[0]
-
-
-def module_page(name: str) -> str:
-    """A module with all of its public names."""
-    return f"{name}\n{'=' * len(name)}\n\n.. automodule:: {name}\n"
-
-
-def api_index(modules: list[str]) -> str:
-    """The table of modules, and of the names at top level."""
-    table = "\n".join(f"   * - :doc:`{name} <{name}>`\n     - {headline(name)}" for name in modules)
-    toc = "\n".join(f"   {name}" for name in modules)
-    names = ", ".join(f"``{name}``" for name in sorted(pydart2.__all__))
-    return f"""API reference
-=============
-
-At top level, as ``pydart2.World``: {names}.
-
-.. list-table::
-   :widths: 30 70
-
-{table}
-
-.. toctree::
-   :hidden:
-
-{toc}
-"""
+[{title}]({name}.md)
+::::"""
 
 
 # The window

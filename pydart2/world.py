@@ -652,7 +652,7 @@ class World(WorldBuilding, Scenes, WorldQueries, Upright, Named, Assignable):
     def solver_residual(self) -> float:
         """How far the last step's forces of the "iterative" solver are from a solution, in m/s (rad/s for joints).
 
-        The largest over the rows of W |x - P(x - w / W)|: impulse x, velocity w that is left, the velocity W that a
+        The largest over the rows of ``W |x - P(x - w / W)|``: impulse x, velocity w that is left, the velocity W that a
         unit impulse gives, and P what brings an impulse within its bounds or into the friction cone.
         """
         return self._handle.solver_residual()
