@@ -10,7 +10,7 @@ import sys
 from _headless import arguments, rehearse
 
 import pydart2 as pydart
-from pydart2.cli.models import open_world
+from pydart2.gui.first_look import open_world
 
 if __name__ == "__main__":
     args = arguments(model=True)

@@ -8,8 +8,9 @@ import time
 from typing import Any
 
 import pydart2
-from pydart2.cli.models import add_file, open_world
+from pydart2.cli.models import add_file
 from pydart2.cli.report import Report, table
+from pydart2.gui.first_look import open_world
 from pydart2.utils.progress import progress
 from pydart2.world import _DETECTORS
 

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from pydart2.bodynode import BodyNode
-from pydart2.cli.models import add_file, open_world
+from pydart2.cli.models import add_file
 from pydart2.cli.report import Report
+from pydart2.gui.first_look import open_world
 from pydart2.skeleton import Skeleton
 
 _STEPS = 10

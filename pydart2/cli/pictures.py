@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from pydart2.cli.models import add_file, open_world
-from pydart2.gui.first_look import VIEWS
+from pydart2.cli.models import add_file
+from pydart2.gui.first_look import VIEWS, open_world
 
 
 def add(commands: Any) -> None:

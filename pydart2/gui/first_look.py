@@ -1,9 +1,10 @@
-"""The first look at a world: a camera that finds it by itself, and a floor where it has none."""
+"""The first look at a file or a world: which way is up, a camera that finds it by itself, a floor where it has none."""
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,10 @@ from pydart2.gui.camera import Camera
 from pydart2.gui.camera_control import FIELD_OF_VIEW
 from pydart2.gui.placing import boxes
 from pydart2.gui.scene import NOBODY, Item, Scene, from_world
+from pydart2.up import Axis, is_z_up
+
+if TYPE_CHECKING:
+    from pydart2.world import World
 
 #: Where the eye is, as parts of what is ahead of a model, on its left, and up.
 VIEWS = {
@@ -25,9 +30,27 @@ VIEWS = {
 }
 
 _LEAST_RADIUS = 0.02  # m
-
-
 _LEAST_FLOOR = 20.0  # m
+_TIME_STEP = 0.001  # s, of a file that has none
+
+
+def open_world(path: str | os.PathLike[str], ground: bool = False, step: float = _TIME_STEP) -> World:
+    """A world with what a file holds, with the file's gravity if it has one, else along the format's down.
+
+    With `ground`, what has no floor gets one, right under it, where there is gravity along it.
+    """
+    from pydart2.loading import read_model
+    from pydart2.world import World
+
+    model: Any = read_model(path)
+    up: Axis | None = None if model.has_world else "z" if is_z_up(model) else "y"
+    world = World(step, model, up=up)
+    if ground and -world.gravity() @ world.up > 0.0:
+        height = height_of_floor(world)
+        if height is not None:
+            world.add_ground(height)
+            world.reset()  # the recording, too, begins with the ground
+    return world
 
 
 def look(world: Any, aspect: float = 1.0, view: str = "auto") -> Camera:

@@ -235,7 +235,11 @@ def test_capture_movie_and_empty(make_window: MakeWindow, tmp_path: Path, capsys
         stream = movie.streams.video[0]
         assert sum(1 for _ in movie.decode(stream)) == count
         assert stream.average_rate == 50  # real time: a picture every 20 steps of 1 ms
+    folder = tmp_path / "captures"
+    assert window.statusBar().currentMessage() == f"movie: {folder / 'talk.mp4'}"
+    assert "capture folder" in window.emptyAction.toolTip()
     window.emptyAction.trigger()
+    assert window.statusBar().currentMessage() == f"{count} pictures removed from {folder}"
     assert not list((tmp_path / "captures").glob("*.png"))
     click(window, window.movieAction)
     assert window.statusBar().currentMessage() == "No pictures for a movie: tick Capture and play first"
@@ -294,9 +298,77 @@ def test_plots_hold_what_the_simulation_did(make_window: MakeWindow, cubes: pyda
     assert samples[:, 1] == pytest.approx(-9.81 * samples[:, 0], rel=1e-6)
     window.resetAction.trigger()
     window.runtime.step()
-    assert len(window.inspector.plots.samples(row.dof)) == 1
+    assert [time for time, _ in window.inspector.plots.samples(row.dof)] == [0.0, cubes.t]
     QTest.mouseClick(row.plot, Qt.LeftButton)
     assert window.inspector.plots.dofs == []
+
+
+def test_plots_of_a_recording_show_its_past_and_move_with_the_frame(
+    make_window: MakeWindow, cubes: pydart2.World
+) -> None:
+    cubes.skeletons[1].q = [0.0, 0.0, 0.0, 0.0, 900.0, 0.0]
+    cubes.recording.clear()
+    cubes.step(12000)  # 12 s of free fall, before there is a window
+    window = make_window(cubes, size=(900, 900))
+    window.inspector.show_skeleton(cubes.skeletons[1])
+    row, plots = window.inspector.sliders.rows[4], window.inspector.plots
+    QTest.mouseClick(row.plot, Qt.LeftButton)
+    for quantity, slope in (("position", None), ("velocity", -9.81)):
+        plots.box.setCurrentText(quantity)
+        samples = np.array(plots.samples(row.dof))
+        assert (len(samples), samples[0, 0], samples[-1, 0]) == (2401, 0.0, pytest.approx(12.0))
+        if slope is not None:
+            assert samples[:, 1] == pytest.approx(slope * samples[:, 0], abs=1e-6)
+
+    def shown() -> tuple[list[float], float]:
+        window.refresh()
+        return plots.plot.viewRange()[0], plots.marker.value()
+
+    assert shown() == (pytest.approx([2.0, 12.0], abs=0.01), pytest.approx(12.0))
+    assert not plots.marker.isVisible()
+    window.rangeSlider.setValue(1000)
+    assert shown() == (pytest.approx([0.0, 6.0], abs=0.01), pytest.approx(1.0))
+    assert plots.marker.isVisible()
+    window.animAction.setChecked(True)
+    wait_for(lambda: shown()[1] > 1.05)
+    assert len(plots.samples(row.dof)) == 2401  # a replay adds nothing
+    window.animAction.setChecked(False)
+    window.stepEvent()
+    plots.box.setCurrentText("force")  # which is not recorded
+    assert plots.samples(row.dof) == []
+
+
+@pytest.mark.parametrize("world", ["cubes", "none"])
+def test_the_inspector_folds_away_in_a_narrow_window(make_window: MakeWindow, world: str, request: Any) -> None:
+    window = make_window(request.getfixturevalue("cubes") if world == "cubes" else None, size=(1280, 720))
+    assert window.inspector.isVisible() == (world == "cubes")
+    window.resize(640, 480)
+    spin(0.05)
+    assert (window.width(), window.height()) == (640, 480)
+    assert not window.inspector.isVisible()
+    assert window.glwidget.width() > 550 and window.glwidget.height() > 300
+    window.resize(1280, 720)
+    spin(0.05)
+    assert window.inspector.isVisible() == (world == "cubes")
+
+
+def test_a_folded_inspector_can_be_asked_for_and_stays_away_when_closed(
+    make_window: MakeWindow, cubes: pydart2.World
+) -> None:
+    window = make_window(size=(640, 480))
+    window.set_simulation(cubes)
+    assert not window.inspector.isVisible()
+    window.named_actions["inspector"].setChecked(True)
+    assert window.inspector.isVisible()
+    window.named_actions["inspector"].setChecked(False)
+    window.resize(1280, 720)
+    spin(0.05)
+    assert window.inspector.isVisible()
+    window.named_actions["inspector"].setChecked(False)
+    for size in ((640, 480), (1280, 720)):
+        window.resize(*size)
+        spin(0.05)
+        assert not window.inspector.isVisible()
 
 
 def test_pulling_moves_the_body_to_the_mouse(make_window: MakeWindow, cubes: pydart2.World) -> None:
@@ -359,6 +431,7 @@ def test_help_lists_every_key(make_window: MakeWindow) -> None:
         shortcuts = [sequence.toString() for sequence in window.named_actions[key.action].shortcuts()]
         assert shortcuts == list(key.keys)
     assert shortcut("help") == "F1"
+    assert set(window.named_actions) == {key.action for key in KEYS}
     QTest.keyClick(window, Qt.Key_Escape)
     assert window.isVisible() and not window.helpOverlay.isVisible()
 
@@ -366,13 +439,23 @@ def test_help_lists_every_key(make_window: MakeWindow) -> None:
 def test_models_can_be_dropped(make_window: MakeWindow, tmp_path: Path) -> None:
     window = make_window()
     drop(window, pydart2.data_path("sdf/atlas/atlas_v3_no_head.sdf"))
-    assert [skel.ndofs for skel in window.sim.skeletons] == [33]
-    assert window.inspector.tree.topLevelItemCount() == 1
+    assert [skel.ndofs for skel in window.sim.skeletons] == [33, 0]  # and a ground, for Play
+    assert list(window.sim.up) == [0.0, 0.0, 1.0]
+    assert window.cameraGroup.checkedAction().text() == "Camera Z up"
+    assert window.inspector.tree.topLevelItemCount() == 2
     drop(window, pydart2.data_path("sdf/atlas/atlas_v3_no_head.sdf"))
     window.refresh()
-    assert window.inspector.tree.topLevelItemCount() == 2
+    assert window.inspector.tree.topLevelItemCount() == 3
+    window.sim.dt = 0.002
     drop(window, pydart2.data_path("skel/cubes.skel"))
-    assert window.sim.num_skeletons() == 4
+    assert (window.sim.num_skeletons(), window.sim.dt) == (4, 0.002)
+    (tmp_path / "scene.xml").write_text(
+        """<mujoco><option gravity="0 0 -1.62"/><worldbody><geom type="plane" size="5 5 .1"/>
+        <body><freejoint/><geom size=".1"/></body><body pos="1 0 0"><freejoint/><geom size=".1"/></body>
+        </worldbody></mujoco>"""
+    )
+    drop(window, tmp_path / "scene.xml")
+    assert (window.sim.num_skeletons(), window.sim.gravity()[2]) == (3, -1.62)
     (tmp_path / "broken.urdf").write_text("<robot>")
     drop(window, tmp_path / "broken.urdf")
     assert window.errorPane.isVisible()

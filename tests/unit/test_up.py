@@ -11,7 +11,7 @@ import pytest
 
 import pydart2
 from physics.models import creature, save_skeleton
-from pydart2.cli.models import open_world
+from pydart2.gui.first_look import open_world
 from pydart2.gui.scene import from_world
 from pydart2.up import up_of
 

@@ -51,11 +51,6 @@ _TEXTS = {
 }
 _CHECKABLE = {"play", "animate", "capture", "follow", "inspector", "full_screen", "help", *Overlays.TOGGLES}
 _SHOWN = {name for name in Overlays.TOGGLES if getattr(Overlays(), name)}
-_TIPS = {
-    "capture": "Save every n-th picture while playing, and every frame of an animation",
-    "empty": "Remove the captured pictures",
-    "movie": "Make a movie of the captured pictures",
-}
 _TOOLBAR = ("reset", "step", "play", "animate", None, "screenshot", "capture", "empty", "movie", None)
 _VIEW_BAR = ("frame_all", "follow", None, *Overlays.TOGGLES, None, "help")
 _SCRUB = ("back", "first_frame", "last_frame")
@@ -77,11 +72,8 @@ def make_actions(window: PyQt5Window) -> dict[str, QAction]:
     for name, (text, method) in _TEXTS.items():
         action = QAction(text, window)
         action.setObjectName(name)
-        tip = _TIPS.get(name) or (rows[name].text if name in rows else text)
-        if name in rows:
-            action.setShortcuts([QKeySequence(key) for key in rows[name].keys])
-            tip = f"{tip} ({' or '.join(rows[name].keys)})"
-        action.setToolTip(tip)
+        action.setShortcuts([QKeySequence(key) for key in rows[name].keys])
+        action.setToolTip(f"{rows[name].text} ({' or '.join(rows[name].keys)})")
         action.setStatusTip("")
         action.setCheckable(name in _CHECKABLE)
         action.setChecked(name in _SHOWN)

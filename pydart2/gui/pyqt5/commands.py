@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PyQt5.QtWidgets import QFileDialog
 
 from pydart2.bodynode import BodyNode
+from pydart2.gui.first_look import open_world
 from pydart2.gui.placing import boxes
 from pydart2.gui.pyqt5.actions import SPEEDS
+from pydart2.loading import read_model
 from pydart2.skeleton import Skeleton
-from pydart2.world import World
 
 if TYPE_CHECKING:
     from pydart2.dof import Dof
     from pydart2.gui.pyqt5.window import PyQt5Window
 
-MODEL_FILES = "Models (*.urdf *.sdf *.skel *.vsk *.xml);;All files (*)"
-_TIME_STEP = 0.001  # of a world that is made for a model, s
+MODEL_FILES = "Models (*.urdf *.sdf *.world *.skel *.vsk *.xml *.mjcf);;All files (*)"
 
 
 class Commands:
@@ -152,20 +151,17 @@ class Commands:
             self.open_model(path)
 
     def open_model(self, path: str | os.PathLike[str]) -> None:
-        """Add a robot to the world, or show a world's file instead of the present one; errors are shown."""
+        """Add a robot to the world; a file that holds a world takes the present one's place. Errors are shown."""
         with self.runtime.guarded():
-            self._open_model(Path(path))
+            self._open_model(path)
         self.window.refresh()
 
-    def _open_model(self, path: Path) -> None:
-        world: Any = self.window.world
-        if path.suffix.lower() == ".skel":
-            step = world.dt if world is not None else _TIME_STEP
-            self.window.set_simulation(World(step, path))
+    def _open_model(self, path: str | os.PathLike[str]) -> None:
+        model, world = read_model(path), self.window.world
+        if world is not None and not model.has_world:
+            self.select(world.add_skeleton(model))
             return
-        if world is None:
-            world = World(_TIME_STEP)
-            world.add_skeleton(path)
-            self.window.set_simulation(world)
-        else:
-            self.select(world.add_skeleton(path))
+        step = {} if world is None else {"step": world.dt}
+        self.window.set_simulation(open_world(model, ground=True, **step))
+        self.window.look_upright()
+        self.frame_all()

@@ -40,8 +40,9 @@ class Inspector(QDockWidget):
         splitter = QSplitter(Qt.Vertical)
         self.heading = QLabel("Joints")
         for title, widget in (("Bodies", self.tree), (self.heading, self.sliders), ("Plot", self.plots)):
+            widget.setMinimumHeight(40)  # so that the window fits a low screen
             splitter.addWidget(_titled(title, widget))
-        splitter.setSizes([250, 270, 260])
+        splitter.setSizes([200, 240, 340])
         splitter.setMinimumWidth(330)
         splitter.setChildrenCollapsible(False)
         self.setWidget(splitter)
@@ -82,13 +83,13 @@ class Inspector(QDockWidget):
         self._reveal(part)
         self.chosen.emit(part)
 
-    def refresh(self) -> None:
-        """Show the present state."""
+    def refresh(self, time: float | None) -> None:
+        """Show the present state, and in the plots what is around the time that is shown, s."""
         if not self.isVisible() or self.world is None:
             return
         self.show_world(self.world)
         self.sliders.refresh()
-        self.plots.refresh()
+        self.plots.refresh(time)
 
 
 def _titled(title: Any, widget: QWidget) -> QWidget:

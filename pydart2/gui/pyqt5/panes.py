@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 
 from PyQt5.QtCore import Qt, pyqtSignal
-from PyQt5.QtGui import QFontDatabase, QTextCursor
+from PyQt5.QtGui import QFontDatabase, QFontInfo, QTextCursor
 from PyQt5.QtWidgets import (
     QApplication,
     QHBoxLayout,
@@ -32,9 +32,14 @@ class HelpOverlay(QLabel):
         self.hide()
 
     def place(self) -> None:
-        """In the middle of the parent."""
-        self.adjustSize()
-        parent = self.parentWidget()
+        """In the middle of the parent, in letters that are small enough for all of it to be seen."""
+        parent, font = self.parentWidget(), self.parentWidget().font()
+        for size in range(font.pixelSize() if font.pixelSize() > 0 else QFontInfo(font).pixelSize(), 6, -1):
+            font.setPixelSize(size)
+            self.setFont(font)
+            self.adjustSize()
+            if self.width() <= parent.width() and self.height() <= parent.height():
+                break
         self.move((parent.width() - self.width()) // 2, max((parent.height() - self.height()) // 2, 0))
 
 

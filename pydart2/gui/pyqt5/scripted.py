@@ -16,6 +16,8 @@ from pydart2.gui.runtime import Runtime
 from pydart2.gui.trackball import Trackball
 from pydart2.world import World
 
+_TOLD_MS = 5000  # a message stays in the status bar
+
 
 class Scripted(QMainWindow):
     """The part of PyQt5Window that scripts use."""
@@ -157,19 +159,24 @@ class Scripted(QMainWindow):
         with self.runtime.guarded():
             self.glwidget.capture(name)
 
+    def tell(self, text: str) -> None:
+        """Print a line, and show it in the status bar for a while."""
+        print(text)
+        self.statusBar().showMessage(text, _TOLD_MS)
+
     def emptyEvent(self) -> None:  # noqa: N802
         """Remove the pictures of the capture folder."""
         with self.runtime.guarded():
-            print(f"{self.captures.empty()} pictures removed from {self.captures.path}")
+            self.tell(f"{self.captures.empty()} pictures removed from {self.captures.path}")
 
     def movieEvent(self) -> None:  # noqa: N802
         """Make `<name>.mp4` of the captured pictures, in real time."""
         name = self.prob_name()
         if not self.captures.pictures(name):
-            self.statusBar().showMessage("No pictures for a movie: tick Capture and play first", 5000)
+            self.statusBar().showMessage("No pictures for a movie: tick Capture and play first", _TOLD_MS)
             return
         with self.runtime.guarded():
-            print(f"movie: {self.captures.movie(name, self.movie_rate())}")
+            self.tell(f"movie: {self.captures.movie(name, self.movie_rate())}")
 
     def movie_rate(self) -> float:
         """Pictures a second, so that the movie runs in real time: one per `capture_rate` steps."""

@@ -31,7 +31,8 @@ class StatusView:
     def show(self, runtime: Runtime, status: object) -> None:
         """Show what a runtime does; `status` is the simulation's answer, None if it has none."""
         own = str(runtime.sim) if runtime.sim is not None else "No simulation: drop a model file on the window"
-        _set(self.text, own if status is None else str(status))
+        _set(self.text, own.partition("\n")[0] if status is None else str(status))
+        self.text.setToolTip(own)
         frames = runtime.num_frames
         time = runtime.frame_time
         at = "" if time is None else f", {time:.3f} s"

@@ -10,7 +10,7 @@ from types import FrameType
 from typing import Any, ClassVar
 
 from PyQt5.QtCore import QSize, Qt, QTimer
-from PyQt5.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent
+from PyQt5.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
 from PyQt5.QtWidgets import QActionGroup, QApplication, QHBoxLayout, QVBoxLayout, QWidget
 
 from pydart2.gui.capture import CaptureFolder
@@ -29,6 +29,7 @@ from pydart2.up import up_of
 SECONDS = "PYDART2_VIEWER_SECONDS"
 _PICTURE_SIZE = (1280, 720)
 _ACTIVE_MS, _PAUSED_MS = 33, 250  # between two pictures
+_ROOM = 800  # pixels of the window below which the inspector folds away, so that the picture keeps most of them
 
 
 def signal_handler(signal: int, frame: FrameType | None) -> None:
@@ -90,6 +91,7 @@ class PyQt5Window(Scripted):
         self.after_reset = True
         self.input_keys: list[str] = []
         self.right_panel: SidePanel | None = None
+        self._has_room, self._folded = True, False
         self.initActions()
         self.initToolbar()
         self.initMenu()
@@ -148,13 +150,12 @@ class PyQt5Window(Scripted):
         self.inspector.visibilityChanged.connect(self.named_actions["inspector"].setChecked)
         self.glwidget.picked.connect(self.commands.select)
         self.statusView = StatusView(self.statusBar())
-        self.camera_event(1 if self._has_z_up() else 0)
+        self.look_upright()
 
-    def _has_z_up(self) -> bool:
-        if self.world is None:
-            return False
-        x, y, z = abs(up_of(self.world))
-        return bool(z > max(x, y))
+    def look_upright(self) -> None:
+        """Look through the camera whose up is the world's."""
+        x, y, z = abs(up_of(self.world)) if self.world is not None else (0.0, 1.0, 0.0)
+        self.camera_event(1 if z > max(x, y) else 0)
 
     def initTimers(self) -> None:  # noqa: N802
         """Make the timers: one simulates, one draws."""
@@ -186,7 +187,8 @@ class PyQt5Window(Scripted):
 
     def _show_simulation(self) -> None:
         self.glwidget.forget()
-        self.inspector.setVisible(self.world is not None)
+        self.inspector.setVisible(self.world is not None and self._has_room)
+        self._folded = self.world is not None and not self._has_room
         self.inspector.show_world(self.world)
         for name in ("follow", *self.glwidget.overlays.TOGGLES):
             self.named_actions[name].setEnabled(self.world is not None)
@@ -204,6 +206,21 @@ class PyQt5Window(Scripted):
         self.right_panel = panel
         self.hbox.addWidget(box)
         self.resize(self.width() + panel.width, self.height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802
+        """Fold the inspector and the buttons' texts away in a narrow window, and back when there is room again."""
+        super().resizeEvent(event)
+        self.helpOverlay.place()
+        has_room = self.width() >= _ROOM
+        if has_room == self._has_room:
+            return
+        self._has_room = has_room
+        self.toolbar.setToolButtonStyle(Qt.ToolButtonTextBesideIcon if has_room else Qt.ToolButtonIconOnly)
+        if has_room and self._folded:
+            self.inspector.show()
+        self._folded = not has_room and not self.inspector.isHidden()
+        if self._folded:
+            self.inspector.hide()
 
     # Time
 
@@ -229,6 +246,7 @@ class PyQt5Window(Scripted):
         self.errorPane.hide()
         self.runtime.reset()
         self.after_reset = True
+        self.inspector.plots.look_back()
         self.refresh()
 
     def stepEvent(self) -> None:  # noqa: N802
@@ -281,7 +299,7 @@ class PyQt5Window(Scripted):
         self.rangeSlider.blockSignals(False)
         with runtime.guarded():
             self.statusView.show(runtime, self.callbacks.call("status"))
-            self.inspector.refresh()
+            self.inspector.refresh(runtime.frame_time)
 
     def _after_step(self) -> None:
         self.after_reset = False
