@@ -87,6 +87,7 @@ bench: setup
 	$(VENV)/bin/pip install --quiet mujoco pin
 	$(VENV)/bin/python benchmarks/run_all.py
 	$(VENV)/bin/python benchmarks/rendering.py
+	QT_QPA_PLATFORM=offscreen $(VENV)/bin/python benchmarks/window.py
 
 wheel: setup
 	$(VENV)/bin/python tools/make_wheel.py

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_X, _Y = np.eye(3)[:2]
+
 
 def grid_of(width: float) -> float:
     """Edge of the cells on a floor so wide, m."""
@@ -23,12 +25,16 @@ def between(start: Array, end: Array, part: float = 0.5) -> Array:
     """A pose (4, 4) whose z axis points from `start` to `end`, and its x axis nearly along the world's x (or y, where z
     is along x); its origin is at this part of the way."""
     z = (end - start) / np.linalg.norm(end - start)
-    x = np.eye(3)[0 if abs(z[0]) < 0.9 else 1]
+    x = _X if abs(z[0]) < 0.9 else _Y
     x = x - (x @ z) * z
     x /= np.linalg.norm(x)
-    pose = np.eye(4)
-    pose[:3, :3] = np.stack([x, np.cross(z, x), z], axis=1)
+    (a, b, c), (d, e, f) = z.tolist(), x.tolist()
+    pose = np.empty((4, 4))
+    pose[:, 0] = d, e, f, 0.0
+    pose[:, 1] = b * f - c * e, c * d - a * f, a * e - b * d, 0.0  # np.cross() takes five times as long
+    pose[:, 2] = a, b, c, 0.0
     pose[:3, 3] = start + part * (end - start)
+    pose[3, 3] = 1.0
     return pose
 
 

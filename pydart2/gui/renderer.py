@@ -33,6 +33,8 @@ class Style:
     shadows : bool
     shadow_size : int
         Pixels of the shadow map along an edge.
+    soft_shadows : bool
+        Whether the edges of shadows are blurred.
     wireframe : bool
     background_top, background_bottom : (3,)
     light : (3,)
@@ -41,6 +43,7 @@ class Style:
 
     shadows: bool = True
     shadow_size: int = 1024
+    soft_shadows: bool = True
     wireframe: bool = False
     background_top: tuple[float, float, float] = (0.80, 0.86, 0.93)
     background_bottom: tuple[float, float, float] = (0.97, 0.98, 0.99)
@@ -161,7 +164,7 @@ class SceneRenderer:
         self._pools[0].require({mesh}, self._frame)
         part = self._pools[0].part(mesh)
         shadows = self._shadow is not None and "shadow" in self._uniforms
-        program = self._program("FIXED", "BLEND", *(["SHADOW"] if shadows else []))
+        program = self._program("FIXED", "BLEND", *(["SHADOW", "SOFT"] if shadows else []))
         program.use()
         program.set(eye_to_world=np.linalg.inv(self.frame_matrices[0]), **self._uniforms)
         if self._shadow is not None:
@@ -222,7 +225,7 @@ class SceneRenderer:
         if bucket.closed:
             features.append("CLOSED")
         if shadows:
-            features.append("SHADOW")
+            features += ["SHADOW", "SOFT"] if self.style.soft_shadows else ["SHADOW"]
         program = self._program(*features)
         program.use()
         program.set(texture=0, **uniforms)

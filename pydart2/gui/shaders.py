@@ -134,13 +134,15 @@ flat in float v_cell;
 layout(location = 0) out vec4 color;
 
 float lit_part() {
-#ifdef SHADOW
+#if defined SOFT
     // Four taps that the hardware blurs each over two by two texels: an edge a few texels wide.
     float t = u_shadow_size;
     return 0.25 * (texture(u_shadow_map, v_shadow + vec3(-0.4, -1.2, 0.0) * t)
         + texture(u_shadow_map, v_shadow + vec3(1.2, -0.4, 0.0) * t)
         + texture(u_shadow_map, v_shadow + vec3(0.4, 1.2, 0.0) * t)
         + texture(u_shadow_map, v_shadow + vec3(-1.2, 0.4, 0.0) * t));
+#elif defined SHADOW
+    return texture(u_shadow_map, v_shadow);
 #else
     return 1.0;
 #endif
@@ -288,7 +290,8 @@ class Program:
 def lit(*features: str) -> Program:
     """Draws in light: instances of meshes or, with FIXED, a mesh with OpenGL's own matrices and colour.
 
-    RICH has textures and vertex colours, GRID a grid on top, CLOSED no back sides, SHADOW shadows, BLEND an alpha.
+    RICH has textures and vertex colours, GRID a grid on top, CLOSED no back sides, SHADOW shadows,
+    with SOFT blurred ones, BLEND an alpha.
     """
     head = _HEAD + "".join(f"#define {feature}\n" for feature in features)
     main = _FIXED_MAIN if "FIXED" in features else _WORLD_MAIN

@@ -43,7 +43,7 @@ class ColorTarget:
     """A colour picture with depth, with several samples a pixel if wanted."""
 
     def __init__(self, width: int, height: int, samples: int) -> None:
-        self.width, self.height = width, height
+        self.width, self.height, self.samples = width, height, samples
         self._drawn = self._read = _Framebuffer(width, height, samples, GL.GL_RGBA8)
         if samples:
             self._read = _Framebuffer(width, height, 0, GL.GL_RGBA8)
@@ -54,17 +54,25 @@ class ColorTarget:
         self._drawn.bind()
         GL.glViewport(0, 0, self.width, self.height)
 
+    def copy_to(self, framebuffer: int) -> None:
+        """Copy the picture into another framebuffer, by its name."""
+        size = (0, 0, self.width, self.height)
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._drawn.name)
+        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, framebuffer)
+        GL.glBlitFramebuffer(*size, *size, GL.GL_COLOR_BUFFER_BIT, GL.GL_NEAREST)
+
     def read(self) -> NDArray[np.uint8]:
         """The picture, (height, width, 3), uint8, row 0 on top."""
-        size = (0, 0, self.width, self.height)
+        return np.ascontiguousarray(self.read_rows()[::-1, :, :3])
+
+    def read_rows(self) -> NDArray[np.uint8]:
+        """The picture as OpenGL has it, (height, width, 4), uint8, row 0 below; the next call fills the same memory."""
         if self._read is not self._drawn:
-            GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._drawn.name)
-            GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._read.name)
-            GL.glBlitFramebuffer(*size, *size, GL.GL_COLOR_BUFFER_BIT, GL.GL_NEAREST)
+            self.copy_to(self._read.name)
         self._read.bind()
         # All four channels, which is ten times faster than three.
         _read_pixels(self._pixels, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE)
-        return np.ascontiguousarray(self._pixels[::-1, :, :3])
+        return self._pixels
 
     def free(self) -> None:
         """Give its memory back."""
@@ -104,6 +112,12 @@ class BodiesTarget:
     def free(self) -> None:
         """Give its memory back."""
         self._framebuffer.free()
+
+
+def draws_in_software() -> bool:
+    """Whether the context that is current has no graphics card."""
+    name = GL.glGetString(GL.GL_RENDERER).decode().lower()
+    return any(word in name for word in ("llvmpipe", "softpipe", "swrast", "software"))
 
 
 def _read_pixels(into: NDArray[np.generic], layout: int, kind: int) -> None:

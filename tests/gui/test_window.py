@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from PyQt5.QtCore import QPoint, Qt
+from PyQt5.QtGui import QImage
 from PyQt5.QtTest import QTest
 
 import pydart2
@@ -204,6 +205,29 @@ def test_the_picture_is_the_headless_one_pixel_for_pixel(make_window: MakeWindow
     shown = window.glwidget.picture()
     height, width = shown.shape[:2]
     assert (shown == pydart2.gui.render(world, width, height, camera=window.scene.tb)).all()
+
+
+def test_pictures_that_move_are_drafts_without_a_graphics_card(make_window: MakeWindow, cubes: pydart2.World) -> None:
+    window = make_window(cubes)
+    window.commands.frame_all()
+    picture = window.glwidget
+
+    spin(0.1)
+    still = picture.picture()
+    assert not picture.is_draft and picture._target.samples == 4
+    window.playAction.setChecked(True)
+    spin(0.2)
+    assert picture.is_draft and picture._target.samples == 0
+    with picture.current():
+        assert picture.to_show() is picture._target  # one that was begun before
+    assert (picture.picture() != still).any()
+    assert picture._target.samples == 4  # a capture is as fine as ever
+    window.playAction.setChecked(False)
+    spin(0.1)
+    paused = picture.grab().toImage().convertToFormat(QImage.Format_RGB888)
+    rows = np.frombuffer(paused.constBits().asstring(paused.sizeInBytes()), np.uint8)
+    rows = rows.reshape(paused.height(), paused.bytesPerLine())[:, : 3 * paused.width()]
+    assert (rows.reshape(paused.height(), paused.width(), 3) == picture.picture()).all()
 
 
 def test_screenshot_has_the_true_size(make_window: MakeWindow, tmp_path: Path) -> None:

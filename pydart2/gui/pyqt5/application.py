@@ -18,8 +18,6 @@ from PyQt5.QtWidgets import QApplication
 
 from pydart2.gui.display import require_qt_display
 
-SAMPLES = 4  # of the window's picture, as of the headless one
-
 _application: QApplication | None = None  # Qt needs it to outlive every widget
 
 
@@ -37,7 +35,6 @@ def application(title: str = "pydart2") -> QApplication:
         return existing
     require_qt_display()
     surface = QSurfaceFormat.defaultFormat()
-    surface.setSamples(SAMPLES)
     surface.setDepthBufferSize(24)
     QSurfaceFormat.setDefaultFormat(surface)
     QApplication.setAttribute(Qt.AA_EnableHighDpiScaling)

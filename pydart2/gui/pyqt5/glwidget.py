@@ -6,16 +6,15 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from OpenGL import GL
 from PyQt5.QtCore import QRect, pyqtSignal
 from PyQt5.QtGui import QImage, QOpenGLContext, QPainter, QPaintEvent
 from PyQt5.QtWidgets import QOpenGLWidget, QWidget
 
 from pydart2.gui import context as contexts
-from pydart2.gui.pyqt5.application import SAMPLES
-from pydart2.gui.pyqt5.picture import Picture, make_opaque, set_viewport
-from pydart2.gui.targets import ColorTarget
+from pydart2.gui.pyqt5.picture import Picture, make_opaque
 
 if TYPE_CHECKING:
     from pydart2.gui.pyqt5.window import PyQt5Window
@@ -33,17 +32,15 @@ class GLWidget(Picture, QOpenGLWidget):
     def initializeGL(self) -> None:  # noqa: N802 (Qt's)
         """Make what the context needs; Qt calls it again when the widget gets a new one."""
         contexts.load_opengl()
+        self._target = None
         self.scene.init()
-
-    def resizeGL(self, w: int, h: int) -> None:  # noqa: N802
-        """Draw in another size from now on."""
-        self.scene.resize(w, h)
 
     def paintGL(self) -> None:  # noqa: N802
         """Draw."""
         start = time.perf_counter()
-        set_viewport(self.pixels)
-        self.draw()
+        self.to_show().copy_to(self.defaultFramebufferObject())
+        self.begin_next()
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self.defaultFramebufferObject())
         make_opaque()
         self.paint_seconds = time.perf_counter() - start
 
@@ -56,10 +53,6 @@ class GLWidget(Picture, QOpenGLWidget):
         finally:
             self.doneCurrent()
 
-    def grab_image(self) -> QImage:
-        """The picture as it is drawn now, in pixels of the screen."""
-        return self.grabFramebuffer()
-
 
 class ImageWidget(Picture, QWidget):
     """The picture where Qt has no OpenGL, as on its platform `offscreen`. Emits `picked(body)` like GLWidget."""
@@ -71,7 +64,6 @@ class ImageWidget(Picture, QWidget):
         self._context = contexts.create_context()
         contexts.free_with(self, self._context)
         self._lock = threading.RLock()
-        self._target: ColorTarget | None = None
         self.set_up(parent)
         with self.current():
             self.scene.init()
@@ -80,25 +72,17 @@ class ImageWidget(Picture, QWidget):
         """Within it the picture's own context is current."""
         return contexts.current(self._context, self._lock)
 
-    def grab_image(self) -> QImage:
-        """The picture as it is drawn now, in pixels of the screen."""
-        width, height = self.pixels
-        with self.current():
-            if self._target is None or (self._target.width, self._target.height) != (width, height):
-                if self._target is not None:
-                    self._target.free()
-                self._target = ColorTarget(width, height, SAMPLES)
-            self.scene.resize(self.width(), self.height())
-            self._target.begin()
-            self.draw()
-            rows = self._target.read()
-        return QImage(rows.tobytes(), width, height, 3 * width, QImage.Format_RGB888).copy()
-
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802
         """Draw."""
         start = time.perf_counter()
+        with self.current():
+            rows = self.to_show().read_rows()
+            height, width = rows.shape[:2]
+            memory: Any = rows.data  # mirrored() copies it
+            image = QImage(memory, width, height, 4 * width, QImage.Format_RGBX8888).mirrored()
+            self.begin_next()
         painter = QPainter(self)
-        painter.drawImage(QRect(0, 0, self.width(), self.height()), self.grab_image())
+        painter.drawImage(QRect(0, 0, self.width(), self.height()), image)
         painter.end()
         self.paint_seconds = time.perf_counter() - start
 

@@ -19,7 +19,7 @@ from pydart2.gui.opengl.scene import OpenGLScene
 from pydart2.gui.overlays import Overlays
 from pydart2.gui.pull import Pull
 from pydart2.gui.pyqt5.stage import Stage
-from pydart2.gui.targets import BodiesTarget
+from pydart2.gui.targets import BodiesTarget, ColorTarget, draws_in_software
 from pydart2.gui.trackball import Trackball
 from pydart2.gui.user_input import drag_action
 from pydart2.skeleton import Skeleton
@@ -35,6 +35,7 @@ else:
     _Base = object
 
 SIZE = (1280, 720)
+SAMPLES = 4  # a pixel, as in pictures without a window
 _CLICK = 4  # pixels that the mouse may move in a click
 _BUTTONS = {Qt.LeftButton: "left", Qt.RightButton: "right", Qt.MiddleButton: "middle"}
 
@@ -59,9 +60,6 @@ class Picture(_Base):
         def current(self) -> AbstractContextManager[object]:
             """Within it the picture's OpenGL context is current."""
 
-        def grab_image(self) -> QImage:
-            """The picture as it would be drawn now."""
-
     def set_up(self, window: PyQt5Window) -> None:
         """Make the picture that of a window."""
         self.viewer = window
@@ -74,6 +72,9 @@ class Picture(_Base):
         self.lastPos = QPointF()
         self._pressed: QPointF | None = None
         self._action = ""
+        self._target: ColorTarget | None = None
+        self._in_software: bool | None = None
+        self._begun = False
         self.setMinimumSize(160, 120)
         self.setFocusPolicy(Qt.ClickFocus)
 
@@ -111,6 +112,50 @@ class Picture(_Base):
         self.followed = None
 
     # Drawing
+
+    @property
+    def is_draft(self) -> bool:
+        """Whether pictures are drawn with hard edges now: without a graphics card, while they move."""
+        runtime = self.viewer.runtime
+        return bool(self._in_software) and (runtime.playing or runtime.replaying)
+
+    def drawn(self, draft: bool) -> ColorTarget:
+        """The picture of now, in the context that is current; a draft takes half the time."""
+        if self._in_software is None:
+            self._in_software = draws_in_software()
+        size, samples = self.pixels, 0 if draft else min(SAMPLES, int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)))
+        target = self._target
+        if target is None or (target.width, target.height, target.samples) != (*size, samples):
+            if target is not None:
+                target.free()
+            target = self._target = ColorTarget(*size, samples)
+        self._begun = False
+        self.scene.resize(self.width(), self.height())
+        self.scene.style.soft_shadows = not draft
+        target.begin()
+        self.draw()
+        return target
+
+    def to_show(self) -> ColorTarget:
+        """The picture of now; of drafts the one that begin_next() has begun, which is a picture old."""
+        target = self._target
+        if self._begun and self.is_draft and target is not None and (target.width, target.height) == self.pixels:
+            return target
+        return self.drawn(self.is_draft)
+
+    def begin_next(self) -> None:
+        """Let OpenGL's threads draw the next draft while this one simulates."""
+        if self.is_draft:
+            self.drawn(draft=True)
+            GL.glFlush()
+            self._begun = True
+
+    def grab_image(self) -> QImage:
+        """The picture as it is drawn when nothing moves, in pixels of the screen."""
+        with self.current():
+            rows = self.drawn(draft=False).read()
+        height, width = rows.shape[:2]
+        return QImage(rows.tobytes(), width, height, 3 * width, QImage.Format_RGB888).copy()
 
     def draw(self) -> None:
         """Draw into the framebuffer and viewport that are set, in the context that is current."""
@@ -276,8 +321,3 @@ def make_opaque() -> None:
     GL.glClearColor(0.0, 0.0, 0.0, 1.0)
     GL.glClear(GL.GL_COLOR_BUFFER_BIT)
     GL.glColorMask(True, True, True, True)
-
-
-def set_viewport(size: tuple[int, int]) -> None:
-    """Draw to a whole framebuffer of this size, pixels."""
-    GL.glViewport(0, 0, *size)

@@ -143,7 +143,8 @@ class DofPlots(QWidget):
 
     def refresh(self, time: float | None) -> None:
         """Draw the samples around the time that is shown, s."""
-        if not self.isVisible():
+        self.marker.setVisible(bool(self._curves))
+        if not self._curves or not self.isVisible():
             return
         self.plot.setLabel("left", QUANTITIES[self.quantity][1])
         newest = max((samples.times[-1] for samples in self._samples.values() if samples.times), default=0.0)
