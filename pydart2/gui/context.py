@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import gc
 import os
 import sys
 import threading
@@ -253,12 +254,24 @@ _CURRENT = (
 def current(context: Context, lock: threading.RLock) -> Iterator[None]:
     """Make a context current, alone under the lock; afterwards that which was current before, of a window perhaps."""
     _check_process()
-    with lock, _nothing_current():
+    with lock, keeping_garbage(), _nothing_current():
         context.make_current()
         try:
             yield
         finally:
             context.release()
+
+
+@contextmanager
+def keeping_garbage() -> Iterator[None]:
+    """Within it no cycles of objects are deleted: a window that is among them would end the context that is current."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
 
 
 @contextmanager

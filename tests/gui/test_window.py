@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 from typing import Any
 
@@ -228,6 +229,18 @@ def test_pictures_that_move_are_drafts_without_a_graphics_card(make_window: Make
     rows = np.frombuffer(paused.constBits().asstring(paused.sizeInBytes()), np.uint8)
     rows = rows.reshape(paused.height(), paused.bytesPerLine())[:, : 3 * paused.width()]
     assert (rows.reshape(paused.height(), paused.width(), 3) == picture.picture()).all()
+
+
+def test_no_other_window_is_deleted_in_the_middle_of_a_picture(make_window: MakeWindow, cubes: pydart2.World) -> None:
+    """Windows are parts of cycles, and Qt lets go of the context that is current when it deletes one."""
+    collecting: list[bool] = []
+    cubes.render_with_ri = lambda ri: collecting.append(gc.isenabled())  # type: ignore[attr-defined]
+    window = make_window(cubes)
+    spin(0.05)
+    window.glwidget.picture()
+    pydart2.gui.render(cubes, 64, 48)
+    assert len(collecting) >= 3 and not any(collecting)
+    assert gc.isenabled()
 
 
 def test_screenshot_has_the_true_size(make_window: MakeWindow, tmp_path: Path) -> None:

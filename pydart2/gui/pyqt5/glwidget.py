@@ -38,20 +38,22 @@ class GLWidget(Picture, QOpenGLWidget):
     def paintGL(self) -> None:  # noqa: N802
         """Draw."""
         start = time.perf_counter()
-        self.to_show().copy_to(self.defaultFramebufferObject())
-        self.begin_next()
-        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self.defaultFramebufferObject())
-        make_opaque()
+        with contexts.keeping_garbage():
+            self.to_show().copy_to(self.defaultFramebufferObject())
+            self.begin_next()
+            GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self.defaultFramebufferObject())
+            make_opaque()
         self.paint_seconds = time.perf_counter() - start
 
     @contextmanager
     def current(self) -> Iterator[None]:
         """Within it the widget's context is current."""
-        self.makeCurrent()
-        try:
-            yield
-        finally:
-            self.doneCurrent()
+        with contexts.keeping_garbage():
+            self.makeCurrent()
+            try:
+                yield
+            finally:
+                self.doneCurrent()
 
 
 class ImageWidget(Picture, QWidget):
