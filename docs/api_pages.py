@@ -64,9 +64,8 @@ def class_page(cls: type) -> str:
     """A class with all that it inherits from its parts, then what else is in its module."""
     module, name = cls.__module__, cls.__name__
     return (
-        f"{title(name)}.. module:: {module}\n\n"
-        f".. autoclass:: {module}.{name}\n   :inherited-members: {FOREIGN}\n\n"
-        f".. automodule:: {module}\n   :noindex:\n   :exclude-members: {name}\n"
+        f"{title(name)}.. autoclass:: {module}.{name}\n   :inherited-members: {FOREIGN}\n\n"
+        f".. automodule:: {module}\n   :exclude-members: {name}\n"
     )
 
 

@@ -25,8 +25,10 @@ MODEL = {name: ["./data/sdf/atlas/atlas_v3_no_head.sdf"] for name in ("view_skel
 
 
 def setup(app: Any) -> dict[str, bool]:
-    """Make the pages before Sphinx looks for them."""
+    """Make the pages before Sphinx looks for them, and look after docstrings before and after Napoleon does, at 500."""
     app.connect("builder-inited", lambda _app: make_pages())
+    app.connect("autodoc-process-docstring", note_docstring, priority=400)
+    app.connect("autodoc-process-docstring", restore_docstring, priority=600)
     return {"parallel_read_safe": True}
 
 
@@ -51,6 +53,25 @@ def write(path: Path, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     if not path.is_file() or path.read_text(encoding="utf-8") != text:
         path.write_text(text, encoding="utf-8")
+
+
+# Docstrings
+
+_noted: dict[str, list[str]] = {}
+
+
+def note_docstring(_app: Any, what: str, name: str, _object: Any, _options: Any, lines: list[str]) -> None:
+    """Keep what is written of a property; what is written of a class's module is no more than of the class."""
+    if what == "property":
+        _noted[name] = list(lines)
+    elif what == "module" and name in {cls.__module__ for cls in api_pages.CLASSES}:
+        lines.clear()
+
+
+def restore_docstring(_app: Any, what: str, name: str, _object: Any, _options: Any, lines: list[str]) -> None:
+    """Napoleon takes what is before a colon in a property's first line for its type."""
+    if what == "property":
+        lines[:] = _noted.pop(name)
 
 
 # Examples

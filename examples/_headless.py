@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 import pydart2 as pydart
+from pydart2.gui.first_look import look
 from pydart2.utils.progress import progress
 
 #: What an example claims, in sentences with the measured figures, and whether each holds.
@@ -58,7 +59,7 @@ def rehearse(
     steps
         As many as the claim needs; `--steps` overrides it.
     camera
-        As of `pydart2.gui.render`: 0 is Y up, 1 is Z up.
+        As of `pydart2.gui.render`: 0 is Y up, 1 is Z up. None: one that sees the world as it is now, and stays.
     keys
         Step → the key that a user would press before it.
     every
@@ -97,6 +98,8 @@ class Clip:
     def __init__(self, world: pydart.World, args: argparse.Namespace, camera: Any = 0, every: int = 1) -> None:
         self.world, self.folder, self.camera, self.every = world, args.output, camera, every
         self.pictures: list[Any] = []
+        if camera is None:
+            self.camera = look(world, PICTURE[0] / PICTURE[1])
         if self.folder is not None:
             self.renderer = pydart.gui.OffscreenRenderer(*PICTURE)
 

@@ -28,6 +28,6 @@ if __name__ == "__main__":
     args = arguments()
     world = pydart.World(1.0 / 2000.0, "./data/skel/cubes.skel")
     if args.headless:
-        rehearse(world, args, 6000, lambda: check(world))
+        rehearse(world, args, 6000, lambda: check(world), camera=None)
     else:
         pydart.gui.viewer.launch(world)

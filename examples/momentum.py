@@ -28,6 +28,6 @@ if __name__ == "__main__":
         return {f"angular momentum changes by {100.0 * change:.3f} %": change < 1e-2}
 
     if args.headless:
-        rehearse(world, args, steps=1000, check=check)
+        rehearse(world, args, steps=1000, check=check, camera=None)
     else:
         pydart.gui.viewer.launch(world)

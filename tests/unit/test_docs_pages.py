@@ -41,6 +41,7 @@ def test_methods_of_a_class_are_together(pages: dict[str, str]) -> None:
     """World.raycast() is written in another module."""
     assert ".. autoclass:: pydart2.world.World\n   :inherited-members: object" in pages["pydart2.world"]
     assert pydart2.World.raycast.__module__ != "pydart2.world"
+    assert pages["pydart2.joint"].endswith(".. automodule:: pydart2.joint\n   :exclude-members: Joint\n")  # its kinds
 
 
 def test_every_module_and_every_name_at_top_level_has_a_page(api: ModuleType, pages: dict[str, str]) -> None:
@@ -74,6 +75,21 @@ def test_the_gallery_shows_each_clip(monkeypatch: pytest.MonkeyPatch, tmp_path: 
     from pydart2.gui.user_input import KEYS
 
     assert all(key.text in pages.keys_table() for key in KEYS)
+
+
+def test_a_colon_makes_no_type_of_what_a_property_says(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(DOCS)
+    import generated_pages as pages
+
+    text = "The kept frames, oldest first: states and contacts."
+    lines = [text]
+    pages.note_docstring(None, "property", "pydart2.Recording.history", None, None, lines)
+    lines[:] = ["states and contacts.", "", ":type: The kept frames, oldest first"]  # as Napoleon has it
+    pages.restore_docstring(None, "property", "pydart2.Recording.history", None, None, lines)
+    assert lines == [text]
+    about = ["A world."]
+    pages.note_docstring(None, "module", "pydart2.world", None, None, about)
+    assert about == []
 
 
 def test_array_like_stays_array_like() -> None:
