@@ -33,8 +33,8 @@ class Style:
     shadows : bool
     shadow_size : int
         Pixels of the shadow map along an edge.
-    soft_shadows : bool
-        Whether the edges of shadows are blurred.
+    draft : bool
+        Whether the edges of shadows are hard, and those of the picture before, for which OpenGL need not wait.
     wireframe : bool
     background_top, background_bottom : (3,)
     light : (3,)
@@ -43,7 +43,7 @@ class Style:
 
     shadows: bool = True
     shadow_size: int = 1024
-    soft_shadows: bool = True
+    draft: bool = False
     wireframe: bool = False
     background_top: tuple[float, float, float] = (0.80, 0.86, 0.93)
     background_bottom: tuple[float, float, float] = (0.97, 0.98, 0.99)
@@ -89,6 +89,8 @@ class SceneRenderer:
         self._pools = [Pool(self._instances, rich) for rich in (False, True)] + [Pool(self._instances, False)]
         self._textures = Textures()
         self._shadow: ShadowMap | None = None
+        self._late: tuple[Matrix, float] | None = None
+        self._draws = 0
         self._frame = 0
 
     def is_alive(self) -> bool:
@@ -98,6 +100,9 @@ class SceneRenderer:
     def begin_frame(self, view: Matrix, projection: Matrix, up: NDArray[np.float64]) -> None:
         """Note a picture's matrices, shape (4, 4), for what is drawn with the fixed pipeline in m."""
         self.frame_matrices = view, projection
+        if not self.style.draft or self._draws > 1:  # what is drawn in parts has a shadow map for each
+            self._late = None
+        self._draws = 0
         self._uniforms = self._light_uniforms(up, view)
 
     def clear(self) -> None:
@@ -124,7 +129,10 @@ class SceneRenderer:
         GL.glDepthFunc(GL.GL_LESS)
         GL.glDisable(GL.GL_BLEND)
         light = self._light(scene.up)
-        shadow, texel = self._draw_shadow(scene, batches, light)
+        self._draws += 1
+        late, self._late = self._late, None
+        shadow, texel = late or self._draw_shadow(scene, batches, light)
+        self._bind_shadow()
         uniforms = self._uniforms = self._light_uniforms(scene.up, view) | {
             "view_projection": projection @ view,
             "shadow": _BIAS @ shadow,
@@ -140,6 +148,10 @@ class SceneRenderer:
             self._begin_lit(batch.bucket, texel > 0.0, uniforms, "BLEND")
             self._draw_batch(batch)
         GL.glDepthMask(True)
+        if self.style.draft:
+            GL.glDisable(GL.GL_BLEND)
+            GL.glPolygonMode(GL.GL_FRONT_AND_BACK, GL.GL_FILL)
+            self._late = self._draw_shadow(scene, batches, light)
         _leave()
 
     def draw_bodies(self, scene: Scene, view: Matrix, projection: Matrix) -> None:
@@ -167,9 +179,7 @@ class SceneRenderer:
         program = self._program("FIXED", "BLEND", *(["SHADOW", "SOFT"] if shadows else []))
         program.use()
         program.set(eye_to_world=np.linalg.inv(self.frame_matrices[0]), **self._uniforms)
-        if self._shadow is not None:
-            GL.glActiveTexture(GL.GL_TEXTURE1)
-            GL.glBindTexture(GL.GL_TEXTURE_2D, self._shadow.texture)
+        self._bind_shadow()
         if mesh.is_closed:
             GL.glEnable(GL.GL_CULL_FACE)
         GL.glBindVertexArray(self._pools[0].vao)
@@ -210,9 +220,12 @@ class SceneRenderer:
                 _cull(batch.bucket)
                 self._draw_batch(batch)
         self._shadow.end(before)
-        GL.glActiveTexture(GL.GL_TEXTURE1)
-        GL.glBindTexture(GL.GL_TEXTURE_2D, self._shadow.texture)
         return matrix, texel
+
+    def _bind_shadow(self) -> None:
+        if self._shadow is not None:
+            GL.glActiveTexture(GL.GL_TEXTURE1)
+            GL.glBindTexture(GL.GL_TEXTURE_2D, self._shadow.texture)
 
     def _begin_lit(self, bucket: _Bucket, shadows: bool, uniforms: dict[str, object], *more: str) -> None:
         features = [*more]
@@ -225,7 +238,7 @@ class SceneRenderer:
         if bucket.closed:
             features.append("CLOSED")
         if shadows:
-            features += ["SHADOW", "SOFT"] if self.style.soft_shadows else ["SHADOW"]
+            features += ["SHADOW"] if self.style.draft else ["SHADOW", "SOFT"]
         program = self._program(*features)
         program.use()
         program.set(texture=0, **uniforms)

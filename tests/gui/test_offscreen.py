@@ -290,3 +290,21 @@ def test_a_texture_that_is_missing_is_drawn_white(tmp_path: Path, caplog: pytest
     picture = OffscreenRenderer(240, 180).render(world, camera=FRONT)
     assert picture[60, 90].min() > 110
     assert "quarters.png" in caplog.text
+
+
+def test_shadows_of_drafts_are_those_of_the_picture_before(cubes: pydart2.World) -> None:
+    renderer = OffscreenRenderer(160, 120, samples=0)
+    renderer.scene.style.draft = True
+    first, again = (renderer.render(cubes, camera="auto") for _ in range(2))
+    assert (first == again).all()
+    q = cubes.skeletons[-1].q
+    q[3:5] += 0.3, 0.5
+    cubes.skeletons[-1].q = q
+    camera = pydart2.gui.Camera.look_at([1.0, 1.0, 1.5], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0])
+    late, now = (renderer.render(cubes, camera=camera) for _ in range(2))
+    assert (late != now).any()
+    renderer.scene.style.draft = False
+    assert (renderer.render(cubes, camera=camera) != now).any()  # edges
+    renderer.scene.style.draft = True
+    assert (renderer.render(cubes, camera=camera) == now).all()  # the first draft waits for its own shadows
+    renderer.close()

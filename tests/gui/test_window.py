@@ -89,6 +89,15 @@ def test_playing_is_paced_by_the_clock_and_says_how_fast(make_window: MakeWindow
     assert window.runtime.pacer.speed == 1.0
 
 
+def test_a_window_with_nothing_to_do_waits(make_window: MakeWindow, cubes: pydart2.World) -> None:
+    window = make_window(cubes)
+    window.speedBox.setCurrentIndex(0)  # a tenth of real time: steps of 1 ms are due every 10 ms
+    window.playAction.setChecked(True)
+    wait_for(lambda: window.idleTimer.interval() > 0)
+    before = cubes.frame
+    wait_for(lambda: cubes.frame > before)
+
+
 def test_slider_scrubs_and_anim_replays(make_window: MakeWindow, cubes: pydart2.World) -> None:
     cubes.step(200)
     window = make_window(cubes)

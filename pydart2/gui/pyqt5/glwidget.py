@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections.abc import Iterator
@@ -10,14 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 from OpenGL import GL
 from PyQt5.QtCore import QRect, pyqtSignal
-from PyQt5.QtGui import QImage, QOpenGLContext, QPainter, QPaintEvent
+from PyQt5.QtGui import QImage, QOffscreenSurface, QOpenGLContext, QPainter, QPaintEvent
 from PyQt5.QtWidgets import QOpenGLWidget, QWidget
 
 from pydart2.gui import context as contexts
 from pydart2.gui.pyqt5.picture import Picture, make_opaque
+from pydart2.gui.targets import draws_in_software
 
 if TYPE_CHECKING:
     from pydart2.gui.pyqt5.window import PyQt5Window
+
+QT_PICTURES = "PYDART2_QT_PICTURES"
 
 
 class GLWidget(Picture, QOpenGLWidget):
@@ -90,5 +94,28 @@ class ImageWidget(Picture, QWidget):
 
 
 def make_picture(window: PyQt5Window) -> GLWidget | ImageWidget:
-    """The picture of a window, with what works on Qt's platform."""
-    return GLWidget(window) if QOpenGLContext().create() else ImageWidget(window)
+    """The picture of a window: by Qt's OpenGL on a graphics card, else by ours, beside which the simulation goes on.
+
+    PYDART2_QT_PICTURES=1 in the environment takes Qt's in any case.
+    """
+    card = _qt_has_a_card()
+    if card or (card is not None and os.environ.get(QT_PICTURES)):
+        return GLWidget(window)
+    try:
+        return ImageWidget(window)
+    except contexts.ContextError:
+        if card is None:
+            raise
+        return GLWidget(window)
+
+
+def _qt_has_a_card() -> bool | None:
+    """Whether Qt's OpenGL has a graphics card; None if there is no OpenGL on Qt's platform."""
+    context, surface = QOpenGLContext(), QOffscreenSurface()
+    surface.create()
+    if not context.create() or not context.makeCurrent(surface):
+        return None
+    contexts.load_opengl()
+    found = not draws_in_software()
+    context.doneCurrent()
+    return found

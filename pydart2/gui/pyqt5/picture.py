@@ -131,7 +131,7 @@ class Picture(_Base):
             target = self._target = ColorTarget(*size, samples)
         self._begun = False
         self.scene.resize(self.width(), self.height())
-        self.scene.style.soft_shadows = not draft
+        self.scene.style.draft = draft
         target.begin()
         self.draw()
         return target

@@ -29,6 +29,8 @@ from pydart2.up import up_of
 SECONDS = "PYDART2_VIEWER_SECONDS"
 _PICTURE_SIZE = (1280, 720)
 _ACTIVE_MS, _PAUSED_MS = 33, 250  # between two pictures
+_WAIT_MS = 2
+_SLICE = 0.005  # s of simulation before Qt has its turn
 _ROOM = 800  # pixels of the window below which the inspector folds away, so that the picture keeps most of them
 
 
@@ -265,10 +267,14 @@ class PyQt5Window(Scripted):
         self.refresh()
 
     def idleTimerEvent(self) -> None:  # noqa: N802
-        """Simulate, or go on in the recording, as long as a picture takes."""
-        before = self.runtime.frame
-        self.runtime.advance(budget=max(0.01, min(self.glwidget.paint_seconds, 0.2)))
-        if self.runtime.replaying and self.runtime.frame != before and self.captureAction.isChecked():
+        """Simulate for a moment, or go on in the recording."""
+        runtime = self.runtime
+        before = runtime.frame, runtime.time
+        runtime.advance(budget=_SLICE)
+        waits = before == (runtime.frame, runtime.time) and before[1] is not None
+        if waits != (self.idleTimer.interval() > 0):
+            self.idleTimer.setInterval(_WAIT_MS if waits else 0)  # nothing is due: leave the processors to OpenGL
+        if runtime.replaying and runtime.frame != before[0] and self.captureAction.isChecked():
             self.capture()
         if not (self.runtime.playing or self.runtime.replaying):
             self.synchronize()
@@ -277,7 +283,8 @@ class PyQt5Window(Scripted):
         """Draw, and show the state in the status bar, the slider and the inspector."""
         self.refresh()
         active = self.runtime.playing or self.runtime.replaying
-        self.renderTimer.start(_ACTIVE_MS if active else _PAUSED_MS)
+        twice = round(2000.0 * min(self.glwidget.paint_seconds, 0.2))  # the simulation gets as much time as pictures
+        self.renderTimer.start(max(_ACTIVE_MS, twice) if active else _PAUSED_MS)
 
     def refresh(self) -> None:
         """Show the present state, and draw it soon."""
