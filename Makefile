@@ -3,8 +3,8 @@
 # make docs   docs/_build/html, with a picture or clip of each example
 # make wheel  a wheel that carries DART, and the source archive, in dist/; both as an index would check them
 # make engine the same DART with -O3 -DNDEBUG in build/engine/prefix; then PYDART2_DART_PREFIX=build/engine/prefix make ...
-# make test-packaging, make test-third-party, make test-viewer, make test-solver, make fuzz, make soak, make sanitize,
-#   make coverage, make bench   see tests/README.md
+# make test-debian13, make test-packaging, make test-third-party, make test-viewer, make test-solver, make fuzz, make soak,
+#   make sanitize, make coverage, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
@@ -15,8 +15,8 @@ FUZZ_LOADS ?= 20000
 FUZZ_CALLS ?= 1000000
 FUZZ_SECONDS ?= 300
 
-.PHONY: demo test docs test-packaging test-third-party test-viewer test-solver fuzz soak sanitize coverage bench wheel \
-  engine lint setup clean
+.PHONY: demo test docs test-debian13 test-packaging test-third-party test-viewer test-solver fuzz soak sanitize coverage \
+  bench wheel engine lint setup clean
 
 demo: setup
 	$(VENV)/bin/python examples/hello_pydart.py
@@ -37,6 +37,9 @@ docs: setup
 	$(VENV)/bin/pip install --quiet -e '.[docs]' --no-build-isolation
 	$(VENV)/bin/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
 	@echo "docs: docs/_build/html/index.html"
+
+test-debian13:
+	@tools/debian13.sh
 
 test-packaging: setup
 	$(VENV)/bin/python -m pytest -m packaging
