@@ -12,7 +12,18 @@ from harness import ROUNDS, output
 import pydart2
 
 FOLDER = Path(__file__).resolve().parent
-QUESTIONS = ("step", "dynamics", "access", "control", "engine", "solver", "newer_engine", "batch", "loading")
+QUESTIONS = (
+    "step",
+    "dynamics",
+    "integrators",
+    "access",
+    "control",
+    "engine",
+    "solver",
+    "newer_engine",
+    "batch",
+    "loading",
+)
 HEAD = """# Measured
 
 `make bench` writes this file. Every competitor runs in the same session, in turn, {rounds} rounds; times are CPU time,

@@ -338,6 +338,11 @@ class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
         """Let it move in a step or not."""
         self._handle.set_mobile(mobile)
 
+    @property
+    def integrator_fallbacks(self) -> int:
+        """Steps in which it took the engine's rule, since `World.set_integrator` chose another."""
+        return self._handle.integrator_fallbacks()
+
     def self_collision_check(self) -> bool:
         """Whether its bodies collide with each other; by default they do not."""
         return self._handle.self_collision_check()

@@ -592,6 +592,26 @@ class World(WorldBuilding, Scenes, WorldQueries, Upright, Named, Assignable):
         """Name of the dynamics, "engine" or "fast"."""
         return self._handle.dynamics()
 
+    def set_integrator(self, name: str) -> None:
+        """Choose how velocities and positions go on in a step; ValueError for an unknown name.
+
+        - "engine" (default): semi-implicit Euler, joint damping and springs implicit, Coriolis forces explicit.
+        - "implicit": the same with Coriolis forces implicit too, by their derivatives. Fast turning bodies and limp
+          chains stay stable; energy falls.
+        - "rk4": the classical Runge-Kutta method, of fourth order in the step; damping and springs explicit.
+        - "variational": discrete Lagrangian mechanics, of second order; energy stays near its value for ever.
+
+        The last two are for skeletons that move freely: where in a step a contact, a limit or another constraint acts
+        on a skeleton, a joint's motion is prescribed or the method finds no solution, the skeleton takes the engine's
+        rule in that step; `Skeleton.integrator_fallbacks` counts these. Soft bodies always do. All but "engine" need
+        ``set_dynamics("fast")``, else ValueError.
+        """
+        self._handle.set_integrator(name)
+
+    def integrator(self) -> str:
+        """Name of the integrator, "engine", "implicit", "rk4" or "variational"."""
+        return self._handle.integrator()
+
     def set_constraint_solver(self, name: str, **options: float | str) -> None:
         """Choose the code that solves contacts and constraints; ValueError for an unknown name.
 

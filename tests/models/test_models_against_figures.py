@@ -68,7 +68,11 @@ def check_dofs(skeleton: Any, expected: dict[str, Any]) -> None:
         assert dof.position_upper_limit() == pytest.approx(limit(e["upper"])), dof.name
         assert dof.velocity_upper_limit() == pytest.approx(limit(e["velocity"])), dof.name
         assert dof.force_upper_limit() == pytest.approx(limit(e["force"])), dof.name
-        assert dof.damping_coefficient() == pytest.approx(e["damping"]), dof.name
+        if skeleton.name == "fullbody1":  # our human is damped, so that it comes to rest; the published one is not
+            assert e["damping"] == 0.0
+            assert (dof.damping_coefficient() > 0.0) == (not dof.name.startswith("j_pelvis")), dof.name
+        else:
+            assert dof.damping_coefficient() == pytest.approx(e["damping"]), dof.name
 
 
 def check_poses(skeleton: Any, expected: dict[str, Any]) -> None:

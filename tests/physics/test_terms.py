@@ -66,6 +66,22 @@ def test_terms_of_a_pendulum(pendulum: Skeleton) -> None:
     assert_allclose(pendulum.impulse_response(bob, [1.0, 0.0, 0.0], [0, -0.5, 0]), [0.5 * np.cos(0.3) / inertia])
 
 
+def test_the_work_of_gravity_and_springs(pendulum: Skeleton, human: Skeleton) -> None:
+    """Potential energy is taken at centres of mass; its slope is what gravity and springs do to the dofs."""
+    pendulum.q = [0.7]
+    assert pendulum.potential_energy() == pytest.approx(-2.0 * G * 0.5 * np.cos(0.7), rel=1e-12)
+    for skel in (pendulum, human):
+        n, h = skel.ndofs, 1e-6
+        still = skel.q
+        slope = np.zeros(n)
+        for i in range(n):
+            for sign in (1.0, -1.0):
+                skel.q = skel.integrate_positions(still, sign * h * np.eye(n)[i])
+                slope[i] += sign * skel.potential_energy() / (2 * h)
+        skel.q = still
+        assert_allclose(slope, skel.gravity_forces() - skel.spring_forces(), atol=1e-5)
+
+
 def test_forces_add_up(human: Skeleton) -> None:
     """c is Coriolis and gravity; a force on a body is J^T f; external ones can be left out."""
     assert_allclose(human.coriolis_forces() + human.gravity_forces(), human.c, atol=1e-9)

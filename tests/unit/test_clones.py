@@ -149,7 +149,8 @@ def change_everything(world: pydart2.World) -> dict[tuple[str, str], int]:
             key = type(handle).__name__, name
             accepted.setdefault(key, 0)
             try:
-                write(another(read()), *((True,) if key == ("JointHandle", "set_name") else ()))
+                value = "implicit" if name == "set_integrator" else another(read())
+                write(value, *((True,) if key == ("JointHandle", "set_name") else ()))
                 accepted[key] += 1
             except (TypeError, ValueError):
                 pass  # a shape without a radius, a joint without an axis

@@ -1,21 +1,8 @@
 #include "dynamics/stable_pd.hpp"
 
-#include <dart/dynamics/DegreeOfFreedom.hpp>
+#include "dynamics/each_dof.hpp"
 
 namespace pydart2 {
-
-namespace {
-
-template <class Read>
-Eigen::VectorXd each_dof(const dart::dynamics::Skeleton& skeleton, Read read)
-{
-  Eigen::VectorXd values(static_cast<long>(skeleton.getNumDofs()));
-  for (std::size_t i = 0; i < skeleton.getNumDofs(); ++i)
-    values[static_cast<long>(i)] = read(*skeleton.getDof(i));
-  return values;
-}
-
-} // namespace
 
 Targets::Targets(long num_dofs)
   : q(Eigen::VectorXd::Zero(num_dofs)),

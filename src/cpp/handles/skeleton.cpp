@@ -445,7 +445,17 @@ double SkeletonHandle::kinetic_energy() const
 
 double SkeletonHandle::potential_energy() const
 {
-  return skeleton().computePotentialEnergy();
+  // The engine takes a body's weight at its origin, not at its centre of mass.
+  const auto& skel = skeleton();
+  double energy = 0.0;
+  for (const auto* body : skel.getBodyNodes()) {
+    if (body->asSoftBodyNode() != nullptr)
+      energy += body->computePotentialEnergy(skel.getGravity());
+    else if (body->getGravityMode())
+      energy -= body->getMass() * skel.getGravity().dot(body->getCOM());
+    energy += body->getParentJoint()->computePotentialEnergy();
+  }
+  return energy;
 }
 
 void SkeletonHandle::clear_external_forces()
@@ -575,6 +585,12 @@ void SkeletonHandle::remove_body(long index)
   first->remove();
   use_detector(solver, solver.getCollisionDetector());
   world.tree_changed(*skeleton_.skeleton);
+}
+
+long SkeletonHandle::integrator_fallbacks() const
+{
+  skeleton(); // still there
+  return skeleton_.skeleton->integrator_fallbacks;
 }
 
 void SkeletonHandle::check_new_name(const std::string& name, bool taken, const char* what) const

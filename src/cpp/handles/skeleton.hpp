@@ -114,6 +114,9 @@ public:
   /// Takes a body away, with all that hangs from it. Every handle into this skeleton must be taken again.
   void remove_body(long index);
 
+  /// Steps by the engine's rule since the world got another integrator.
+  long integrator_fallbacks() const;
+
 private:
   dart::dynamics::Skeleton& skeleton() const { return *skeleton_; }
   const std::vector<dart::dynamics::DegreeOfFreedom*>& dofs() const { return skeleton().getDofs(); }

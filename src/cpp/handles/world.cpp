@@ -260,7 +260,29 @@ std::string WorldHandle::dynamics() const
 
 void WorldHandle::set_dynamics(const std::string& name)
 {
-  world().dynamics = dynamics_named(name);
+  auto& record = world();
+  const auto dynamics = dynamics_named(name);
+  if (dynamics != Dynamics::fast && record.integrator != Integrator::engine)
+    throw Error(
+        Kind::value, "integrator '" + std::string(name_of(record.integrator))
+                         + "' needs the fast dynamics; set_integrator(\"engine\") comes first");
+  record.dynamics = dynamics;
+}
+
+std::string WorldHandle::integrator() const
+{
+  return name_of(world().integrator);
+}
+
+void WorldHandle::set_integrator(const std::string& name)
+{
+  auto& record = world();
+  const auto integrator = integrator_named(name);
+  if (integrator != Integrator::engine && record.dynamics != Dynamics::fast)
+    throw Error(Kind::value, "integrator '" + name + "' needs the fast dynamics; world.set_dynamics(\"fast\") comes first");
+  record.integrator = integrator;
+  for (const auto& item : record.skeletons)
+    item->integrator_fallbacks = 0;
 }
 
 std::string WorldHandle::constraint_solver() const

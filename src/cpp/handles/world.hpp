@@ -67,6 +67,8 @@ public:
   /// "engine" or "fast".
   std::string dynamics() const;
   void set_dynamics(const std::string& name);
+  std::string integrator() const;
+  void set_integrator(const std::string& name);
 
   /// "fast", "dart" or "iterative".
   std::string constraint_solver() const;

@@ -295,6 +295,12 @@ void visit_model(Archive& archive, WorldRecord& record)
   visit_error_reduction(archive, fast_solver(*record.world));
   const bool fast = archive.part("fast dynamics", record.dynamics == Dynamics::fast);
   record.dynamics = fast ? Dynamics::fast : Dynamics::engine;
+  if (!archive.part("integrator", record.integrator != Integrator::engine))
+    record.integrator = Integrator::engine;
+  else
+    archive.text(
+        [&] { return std::string(name_of(record.integrator)); },
+        [&](const auto& name) { record.integrator = integrator_named(name); });
 }
 
 } // namespace pydart2

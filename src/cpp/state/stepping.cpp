@@ -312,6 +312,40 @@ void accelerate(SkeletonRecord& item, double dt)
     item.skeleton->computeForwardDynamics();
 }
 
+/// Whether a skeleton's steps may be other than the engine's.
+bool has_integrator(const WorldRecord& record, const SkeletonRecord& item)
+{
+  return record.integrator != Integrator::engine && item.skeleton->getNumSoftBodyNodes() == 0
+         && item.skeleton->getNumDofs() > 0;
+}
+
+/// Before the velocities are predicted by the engine's rule, with accelerations made implicit where that is wanted.
+void prepare_integrator(const WorldRecord& record, SkeletonRecord& item, double dt)
+{
+  if (record.integrator == Integrator::implicit)
+    item.integrator().make_implicit(item.armature, dt);
+  else
+    item.integrator().begin();
+}
+
+/// The whole step of a skeleton that moves freely; false where the engine's rule has to do.
+bool move_freely(const WorldRecord& record, SkeletonRecord& item, double dt)
+{
+  const bool any = has_integrator(record, item);
+  if (record.integrator == Integrator::engine || (any && record.integrator == Integrator::implicit))
+    return false;
+  if (any && item.integrator().moves_freely()) {
+    if (record.integrator == Integrator::variational && item.integrator().step_variational(item.armature, dt))
+      return true;
+    if (record.integrator == Integrator::rk4) {
+      item.integrator().step_rk4(item.armature, dt);
+      return true;
+    }
+  }
+  ++item.integrator_fallbacks;
+  return false;
+}
+
 void apply_impulses(SkeletonRecord& item)
 {
   if (item.mover != nullptr)
@@ -333,11 +367,15 @@ void phases(WorldRecord& record)
     item->motors.act(skeleton, item->armature, dt);
     item->mover = choose_mover(record, *item);
     accelerate(*item, dt);
+    if (has_integrator(record, *item))
+      prepare_integrator(record, *item, dt);
     if (item->mover != nullptr)
       item->mover->integrate_velocities(dt);
     else
       skeleton.integrateVelocities(dt);
     item->watch->check_velocities(end);
+    if (has_integrator(record, *item))
+      item->integrator().keep_prediction();
   }
   solve_constraints(record, end);
   for (const auto& item : record.skeletons) {
@@ -359,7 +397,9 @@ void phases(WorldRecord& record)
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
       continue;
-    if (item->mover != nullptr)
+    if (move_freely(record, *item, dt))
+      item->watch->check_velocities(end);
+    else if (item->mover != nullptr)
       item->mover->integrate_positions(dt);
     else
       skeleton.integratePositions(dt);

@@ -51,6 +51,15 @@ TreeDynamics* SkeletonRecord::dynamics()
   return made_dynamics.get();
 }
 
+SkeletonIntegrator& SkeletonRecord::integrator()
+{
+  if (integrator_structure != structure) {
+    made_integrator.emplace(*skeleton);
+    integrator_structure = structure;
+  }
+  return *made_integrator;
+}
+
 WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string source)
   : id(id), world(std::move(world)), source(std::move(source))
 {

@@ -12,6 +12,7 @@
 
 #include "dynamics/armature.hpp"
 #include "dynamics/dynamics_choice.hpp"
+#include "dynamics/integrator.hpp"
 #include "dynamics/stable_pd.hpp"
 #include "state/constraint_record.hpp"
 #include "state/dof_state.hpp"
@@ -60,6 +61,13 @@ struct SkeletonRecord
   std::shared_ptr<TreeDynamics> made_dynamics = nullptr;
   int dynamics_structure = -1;
   TreeDynamics* mover = nullptr; ///< What moves it in the present step, null for the engine.
+
+  /// Made again when the tree has changed.
+  SkeletonIntegrator& integrator();
+
+  std::optional<SkeletonIntegrator> made_integrator;
+  int integrator_structure = -1;
+  long integrator_fallbacks = 0; ///< Steps by the engine's rule where the world has another, since it was chosen.
 };
 using SkeletonRef = std::shared_ptr<SkeletonRecord>;
 
@@ -117,6 +125,7 @@ struct WorldRecord
   int layout = 0; ///< Changes when skeletons are removed or get another tree, so that an earlier frame no longer fits.
   bool shapes_changed = false; ///< Since the detector got them, which then has them in another order than a clone's.
   Dynamics dynamics = default_dynamics();
+  Integrator integrator = Integrator::engine;
   bool told_of_contact_limit = false; ///< The warning came.
   bool told_of_large_group = false;
   bool deterministic = false; ///< Each step begins without what detectors and constraints remember.
