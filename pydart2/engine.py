@@ -22,7 +22,7 @@ class EngineInfo(NamedTuple):
     solver
         Constraint solver of new worlds, "fast", "dart" or "iterative" (`World.set_constraint_solver`).
     dynamics
-        Dynamics of new worlds, "engine" or "fast" (`World.set_dynamics`).
+        Dynamics of new worlds, "fast" or "engine" (`World.set_dynamics`).
     """
 
     dart: str

@@ -580,10 +580,10 @@ class World(WorldBuilding, Scenes, WorldQueries, Upright, Named, Assignable):
     def set_dynamics(self, name: str) -> None:
         """Choose the code that moves the skeletons; ValueError for an unknown name.
 
-        "engine" (default) is the engine's own. "fast" is of ours: articulated-body forward dynamics, impulses and
-        integration in the engine's order, with bitwise the same results. A moving chain without contact steps in less
-        than half of the time; contacts cost what they did. It covers rigid skeletons with all joints and actuators of
-        the engine; soft ones, and one with a locked joint that moves, take the engine's code in that step. The
+        "fast" (default) is of ours: articulated-body forward dynamics, impulses and integration in the engine's order,
+        with bitwise the same results. A moving chain without contact steps in less than half of the engine's time;
+        contacts cost what they did. It covers rigid skeletons with all joints and actuators of the engine; soft ones,
+        and one with a locked joint that moves, take the engine's code in that step. "engine" is the engine's own. The
         environment variable ``PYDART2_DYNAMICS`` names the one that new worlds start with.
         """
         self._handle.set_dynamics(name)
@@ -604,7 +604,7 @@ class World(WorldBuilding, Scenes, WorldQueries, Upright, Named, Assignable):
         The last two are for skeletons that move freely: where in a step a contact, a limit or another constraint acts
         on a skeleton, a joint's motion is prescribed or the method finds no solution, the skeleton takes the engine's
         rule in that step; `Skeleton.integrator_fallbacks` counts these. Soft bodies always do. All but "engine" need
-        ``set_dynamics("fast")``, else ValueError.
+        the dynamics "fast", else ValueError.
         """
         self._handle.set_integrator(name)
 

@@ -212,6 +212,6 @@ def test_engine_info() -> None:
     info = pydart2.engine_info()
     assert info.dart.startswith("6.")
     assert info.solver == os.environ.get("PYDART2_SOLVER", "fast")
-    assert info.dynamics == os.environ.get("PYDART2_DYNAMICS", "engine")
+    assert info.dynamics == os.environ.get("PYDART2_DYNAMICS", "fast")
     if info.prefix == "/usr":
         assert info.assertions, "Debian builds DART with its assertions"

@@ -17,7 +17,7 @@ from pydart2.joint import Joint
 
 from .test_choice import held_cubes, results, skel
 
-ENVIRONMENT = os.environ.get("PYDART2_DYNAMICS") or "engine"
+ENVIRONMENT = os.environ.get("PYDART2_DYNAMICS") or "fast"
 
 
 def robot() -> pydart2.World:
@@ -129,4 +129,4 @@ def test_environment_variable(name: str) -> None:
     if name == "quick":
         assert "ValueError: environment variable PYDART2_DYNAMICS: no dynamics 'quick'" in done.stderr
     else:
-        assert done.stdout.split() == [name or "engine"] * 2
+        assert done.stdout.split() == [name or "fast"] * 2

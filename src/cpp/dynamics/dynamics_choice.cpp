@@ -24,7 +24,7 @@ Dynamics default_dynamics()
 {
   const char* name = std::getenv("PYDART2_DYNAMICS");
   if (name == nullptr || *name == '\0')
-    return Dynamics::engine;
+    return Dynamics::fast;
   try {
     return dynamics_named(name);
   } catch (const Error& error) {

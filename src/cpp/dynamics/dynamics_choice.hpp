@@ -11,7 +11,7 @@ enum class Dynamics { engine, fast };
 Dynamics dynamics_named(const std::string& name);
 const char* name_of(Dynamics dynamics);
 
-/// What a new world gets: "engine", or what the environment variable PYDART2_DYNAMICS names.
+/// What a new world gets: "fast", or what the environment variable PYDART2_DYNAMICS names.
 Dynamics default_dynamics();
 
 } // namespace pydart2
