@@ -16,6 +16,7 @@ import subprocess
 import sys
 import threading
 import time
+import traceback
 import warnings
 from collections import Counter
 from collections.abc import Callable
@@ -172,7 +173,8 @@ class Hands:
                 destroyed = isinstance(error, pydart2.DestroyedError)
                 self.calls["refused"] += 1
             except Exception as error:
-                self.troubles.append(f"{name}: {error!r:.300}")
+                where = " < ".join(f"{f.name}:{f.lineno}" for f in reversed(traceback.extract_tb(error.__traceback__)))
+                self.troubles.append(f"{name}: {error!r:.300} in {where:.300}")
 
 
 def work(seed: int) -> None:

@@ -117,6 +117,7 @@ def test_far_away(tmp_path: Path, detector: int) -> None:
 def test_assertions_of_the_engine_are_exceptions(tmp_path: Path) -> None:
     """The second line, for what gets past the checks: an inverse inertia that overflows."""
     world = make_world(tmp_path, arm())
+    world.set_dynamics("engine")
     for body in (skel := world.skeletons[0]).bodynodes:
         body.set_mass(1e-310)
         body.set_inertia(np.eye(3) * 1e-310)

@@ -35,6 +35,12 @@ constexpr const char* remedy
     = "take smaller time steps, gains or forces, and go on from world.reset() or a snapshot (world.set_blow_up(\"nan\") "
       "lets it read NaN instead)";
 
+std::string needs_mass(const BodyNode& body)
+{
+  return "body '" + body.getName() + "' of skeleton '" + body.getSkeleton()->getName()
+         + "' moves without mass in it or below it: give it mass, or weld it";
+}
+
 /// Also false for NaN.
 bool sane(double value)
 {
@@ -160,6 +166,8 @@ private:
 
   [[noreturn]] void blown_up(const std::string& where, const char* what, double value, double time) const
   {
+    if (const auto* body = skeleton_.isMobile() ? weightless_body(skeleton_) : nullptr)
+      throw BlowUp("the simulation blew up at t = " + text(time) + " s: " + needs_mass(*body) + "; " + remedy);
     throw BlowUp(
         "the simulation blew up at t = " + text(time) + " s: " + what + " of " + where + " in skeleton '"
         + skeleton_.getName() + "' became " + text(value) + "; " + remedy);
@@ -266,8 +274,7 @@ std::string suspect(const WorldRecord& record)
 {
   for (const auto& item : record.skeletons)
     if (const auto* body = item->skeleton->isMobile() ? weightless_body(*item->skeleton) : nullptr)
-      return "body '" + body->getName() + "' of skeleton '" + item->skeleton->getName()
-             + "' moves without mass in it or below it: give it mass, or weld it";
+      return needs_mass(*body);
   const auto* fastest = find_fastest_dof(record);
   if (fastest == nullptr)
     return "no skeleton has a dof";
