@@ -237,6 +237,7 @@ class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
         if controller is not None:
             _compute_of(controller)
         self._controller = controller
+        self._handle.set_controlled(controller is not None)
         self.world._find_controllers()
 
     def set_controller(self, _controller: Controller | None) -> None:
@@ -333,6 +334,10 @@ class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
     def is_mobile(self) -> bool:
         """Whether it moves in a step."""
         return self._handle.is_mobile()
+
+    def is_asleep(self) -> bool:
+        """Whether it lies still and takes no part in steps until something wakes it (`World.set_sleeping`)."""
+        return self._handle.is_asleep()
 
     def set_mobile(self, mobile: bool) -> None:
         """Let it move in a step or not."""

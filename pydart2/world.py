@@ -23,6 +23,7 @@ from pydart2.queries import WorldQueries
 from pydart2.recording import Recording
 from pydart2.scenes import Scenes
 from pydart2.skeleton import Skeleton, _compute_of
+from pydart2.sleeping import WorldSleeping
 from pydart2.state import Snapshot, model_hash
 from pydart2.telling import Named
 from pydart2.up import Axis, Upright, check, is_z_up
@@ -86,7 +87,7 @@ def _rebuild(
     return world
 
 
-class World(WorldBuilding, Scenes, WorldQueries, Upright, Named, Assignable):
+class World(WorldBuilding, Scenes, WorldQueries, WorldSleeping, Upright, Named, Assignable):
     """A simulated world.
 
     >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")

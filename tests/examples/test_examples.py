@@ -45,6 +45,7 @@ CLAIMS = {
     "shapes": 8,
     "simple_tracking": 1,
     "soft_bodies": 2,
+    "three_thousand_shapes": 4,
     "view_skeleton": 0,
 }
 WRITTEN = {"headless_video": ["pictures"]}

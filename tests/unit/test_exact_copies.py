@@ -67,3 +67,23 @@ def test_steps_of_a_deterministic_world_depend_on_the_state_alone(detector: str)
     for one in (world, other):
         one.step(150)
     np.testing.assert_array_equal(other.x, world.x)
+
+
+@pytest.mark.parametrize("detector", ["fcl", "bullet", "ode", "dart", "native"])
+def test_copies_of_what_was_built_go_on_as_the_original(detector: str) -> None:
+    """Shapes that came one by one, and some that went."""
+    world = pydart2.World(0.002, up="z")
+    world.set_collision_detector(detector)
+    world.add_ground()
+    for i in range(5):
+        world.add_box([0.2, 0.2, 0.2], 1.0, [0.02 * i, 0.0, 0.1 + 0.2 * i])
+    world.step(100)
+    world.remove_skeleton(world.skeletons[2])
+    world.add_sphere(0.1, 1.0, [0.1, 0.05, 1.2])
+    snapshot, copied = world.snapshot(), world.clone()
+    for one in (world, copied):
+        one.step(300)
+    np.testing.assert_array_equal(copied.x, world.x)
+    world.restore(snapshot)
+    world.step(300)
+    np.testing.assert_array_equal(copied.x, world.x)

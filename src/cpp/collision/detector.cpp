@@ -67,6 +67,8 @@ void renew_detector(ConstraintSolver& solver)
   const auto group = solver.getCollisionGroup(); // keeps the meshes' trees, which are dear to make
   if (detector->getType() == "bullet")
     use_detector(solver, detector->cloneWithoutCollisionObjects());
+  if (detector->getType() == "dart" || detector->getType() == "ode")
+    use_detector(solver, detector); // their pairs are in the order in which the shapes came
   if (detector->getType() == "fcl") {
     // The new tree depends on where the objects are when they are added; a soft one keeps its last two meshes.
     for (int i = 0; i < 2; ++i)

@@ -130,10 +130,22 @@ void NativeGroup::set_order(const std::vector<SkeletonPtr>& skeletons)
 
 native::Scene& NativeGroup::scene()
 {
-  if (stale_ || scene_.reordered())
+  if (stale_ || scene_.reordered()) {
     scene_.set_objects(sorted());
+    scene_.set_asleep(asleep_);
+  }
   stale_ = false;
   return scene_;
+}
+
+void NativeGroup::set_asleep(const std::unordered_set<const Skeleton*>& asleep, int version)
+{
+  if (version == version_)
+    return;
+  version_ = version;
+  asleep_ = asleep;
+  if (!stale_)
+    scene_.set_asleep(asleep_);
 }
 
 std::vector<native::Object*> NativeGroup::sorted() const

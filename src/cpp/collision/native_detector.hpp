@@ -55,6 +55,9 @@ public:
   void set_order(const std::vector<dart::dynamics::SkeletonPtr>& skeletons);
   native::Scene& scene();
 
+  /// Shapes of these are looked for by others only; of what changes them there is a version.
+  void set_asleep(const std::unordered_set<const dart::dynamics::Skeleton*>& asleep, int version);
+
 protected:
   void initializeEngineData() override {}
   void addCollisionObjectToEngine(dart::collision::CollisionObject*) override { stale_ = true; }
@@ -68,6 +71,8 @@ private:
 
   std::vector<const dart::dynamics::Skeleton*> order_;
   bool stale_ = true;
+  std::unordered_set<const dart::dynamics::Skeleton*> asleep_;
+  int version_ = 0;
   native::Scene scene_;
 };
 

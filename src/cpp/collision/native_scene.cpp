@@ -48,9 +48,10 @@ void Object::refresh()
 void Scene::set_objects(const std::vector<Object*>& objects)
 {
   items_.clear();
+  watched_.clear();
   unbounded_.clear();
   pairs_.clear();
-  built_ = false;
+  built_ = all_placed_ = false;
   for (auto* object : objects) {
     if (object->geometry().form == Form::none)
       continue;
@@ -61,15 +62,45 @@ void Scene::set_objects(const std::vector<Object*>& objects)
     const bool bounded = object->geometry().form != Form::plane;
     if (!bounded)
       unbounded_.push_back(static_cast<int>(items_.size()));
-    items_.push_back({object, body, skeleton, place, bounded, Pose::Identity(), 0.0, 0.0, {}, {}, false});
+    watched_.push_back(static_cast<int>(items_.size()));
+    items_.push_back({object, body, skeleton, place, bounded, Pose::Identity(), 0.0, 0.0, {}, {}, false, false});
     items_.back().pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN()); // equal to no pose
     items_.back().wide = {Vector::Constant(1.0), Vector::Constant(-1.0)}; // contains nothing
   }
 }
 
+void Scene::set_asleep(const std::unordered_set<const dart::dynamics::Skeleton*>& asleep)
+{
+  watched_.clear();
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    auto& item = items_[i];
+    item.asleep = asleep.count(item.skeleton) > 0;
+    if (!item.asleep)
+      watched_.push_back(static_cast<int>(i));
+  }
+  all_placed_ = false;
+  find_watched_pairs();
+}
+
+void Scene::find_watched_pairs()
+{
+  watched_pairs_.clear();
+  if (watched_.size() == items_.size())
+    return;
+  const auto moves = [](const Item& item) {
+    return !item.asleep && (item.skeleton == nullptr || (item.skeleton->isMobile() && item.skeleton->getNumDofs() > 0));
+  };
+  for (const auto& pair : pairs_) {
+    const auto &a = item(pair.first), &b = item(pair.second);
+    if ((!a.asleep && !b.asleep) || moves(a) || moves(b))
+      watched_pairs_.push_back(pair);
+  }
+}
+
 bool Scene::reordered() const
 {
-  return std::any_of(items_.begin(), items_.end(), [](const Item& item) {
+  return std::any_of(watched_.begin(), watched_.end(), [this](int index) {
+    const Item& item = items_[static_cast<std::size_t>(index)];
     return item.body != nullptr && item.body->getIndexInSkeleton() != item.place;
   });
 }
@@ -78,29 +109,40 @@ bool Scene::reordered() const
 void Scene::place(const ContactMargin& margin)
 {
   escaped_.clear();
-  for (std::size_t i = 0; i < items_.size(); ++i) {
-    auto& item = items_[i];
-    const auto& geometry = item.object->geometry();
-    const auto* frame = item.object->getShapeFrame();
-    const Pose& pose = frame->getWorldTransform();
-    const bool same_margin = margin.time_step <= 0 && item.reach == 0 && item.least == allowed(margin.least, geometry.size);
-    if (same_margin && item.pose.matrix() == pose.matrix())
-      continue;
-    item.pose = pose;
-    item.least = allowed(margin.least, geometry.size);
-    if (!item.bounded)
-      continue;
-    item.bounds = bounds_of(geometry, pose);
-    item.reach = 0.0;
-    if (margin.time_step > 0)
-      item.reach = reach_of(*frame, (item.bounds.low + item.bounds.high) / 2.0, item.bounds, margin.time_step);
-    const double more = std::max(item.least, item.reach);
-    item.bounds.low.array() -= more;
-    item.bounds.high.array() += more;
-    if (!item.wide.contains(item.bounds)) {
-      widen(item);
-      escaped_.push_back(static_cast<int>(i));
-    }
+  const bool same = margin.least == margin_.least && margin.time_step == margin_.time_step;
+  margin_ = margin;
+  if (!std::exchange(all_placed_, true) || !same) {
+    for (std::size_t i = 0; i < items_.size(); ++i)
+      place(static_cast<int>(i));
+  } else
+    for (const int index : watched_)
+      place(index);
+}
+
+void Scene::place(int index)
+{
+  auto& item = this->item(index);
+  const auto& geometry = item.object->geometry();
+  const auto* frame = item.object->getShapeFrame();
+  const Pose& pose = frame->getWorldTransform();
+  const double least = allowed(margin_.least, geometry.size);
+  const bool same_margin = margin_.time_step <= 0 && item.reach == 0 && item.least == least;
+  if (same_margin && item.pose.matrix() == pose.matrix())
+    return;
+  item.pose = pose;
+  item.least = least;
+  if (!item.bounded)
+    return;
+  item.bounds = bounds_of(geometry, pose);
+  item.reach = 0.0;
+  if (margin_.time_step > 0)
+    item.reach = reach_of(*frame, (item.bounds.low + item.bounds.high) / 2.0, item.bounds, margin_.time_step);
+  const double more = std::max(item.least, item.reach);
+  item.bounds.low.array() -= more;
+  item.bounds.high.array() += more;
+  if (!item.wide.contains(item.bounds)) {
+    widen(item);
+    escaped_.push_back(index);
   }
 }
 
@@ -147,6 +189,7 @@ void Scene::update(const ContactMargin& margin)
   std::inplace_merge(pairs_.begin(), pairs_.begin() + middle, pairs_.end());
   for (const int index : escaped_)
     item(index).escaped = false;
+  find_watched_pairs();
 }
 
 void Scene::find_pairs_of(int index)
@@ -168,7 +211,7 @@ void Scene::find(
 {
   update(margin);
   const engine::PairFilter fast(filter);
-  for (const auto& [first, second] : pairs_) {
+  for (const auto& [first, second] : watched_.size() == items_.size() ? pairs_ : watched_pairs_) {
     auto &a = item(first), &b = item(second);
     if (a.bounded && b.bounded && !a.bounds.overlaps(b.bounds))
       continue;

@@ -3,6 +3,7 @@
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/CollisionObject.hpp>
 #include <dart/dynamics/BodyNode.hpp>
+#include <unordered_set>
 
 #include "collision/contact_point.hpp"
 #include "collision/native_manifold.hpp"
@@ -43,6 +44,9 @@ public:
   /// In the order of the contacts.
   void set_objects(const std::vector<Object*>& objects);
 
+  /// Those of sleepers are where they were, and do not touch each other.
+  void set_asleep(const std::unordered_set<const dart::dynamics::Skeleton*>& asleep);
+
   /// Whether bodies have another place in their skeletons than when the objects were set.
   bool reordered() const;
 
@@ -66,15 +70,18 @@ private:
     Bounds bounds; ///< With the margin.
     Bounds wide; ///< Within which it may move without being looked for anew.
     bool escaped;
+    bool asleep;
   };
   using Pair = std::pair<int, int>;
 
   Item& item(int i) { return items_[static_cast<std::size_t>(i)]; }
   void place(const ContactMargin& margin);
+  void place(int index);
   void widen(Item& item);
   void update(const ContactMargin& margin);
   void update_tree();
   void find_pairs_of(int index);
+  void find_watched_pairs();
   void touch(Item& a, Item& b, const ContactMargin& margin, std::vector<Touch>& touches);
 
   std::vector<Item> items_;
@@ -82,7 +89,11 @@ private:
   std::vector<int> escaped_;
   BoundsTree tree_;
   bool built_ = false;
+  bool all_placed_ = false; ///< With this margin.
+  ContactMargin margin_;
   std::vector<Pair> pairs_, new_pairs_;
+  std::vector<int> watched_; ///< The items that are not asleep.
+  std::vector<Pair> watched_pairs_; ///< All but those of a sleeper with what cannot move.
   Points points_;
 };
 

@@ -33,9 +33,15 @@ void ContactMemory::begin_step(const std::vector<dart::dynamics::SkeletonPtr>& s
   if (!std::is_sorted(before_.begin(), before_.end(), sooner))
     std::stable_sort(before_.begin(), before_.end(), sooner);
   shapes_ = {};
+  const auto same = [](const auto* known, const auto& skeleton) { return known == skeleton.get(); };
+  if (std::equal(skeletons_.begin(), skeletons_.end(), skeletons.begin(), skeletons.end(), same))
+    return;
+  skeletons_.clear();
   order_.clear();
-  for (std::size_t i = 0; i < skeletons.size(); ++i)
-    order_.emplace(skeletons[i].get(), i);
+  for (const auto& skeleton : skeletons) {
+    order_.emplace(skeleton.get(), skeletons_.size());
+    skeletons_.push_back(skeleton.get());
+  }
 }
 
 double ContactMemory::place(const dart::dynamics::BodyNode* body, std::size_t part) const

@@ -61,7 +61,8 @@ private:
 
   std::vector<Entry> now_, before_; ///< In the order of the places, once they are recalled.
   std::array<Shape, 2> shapes_; ///< Of the last contact: the next one often has the same.
-  std::unordered_map<const dart::dynamics::Skeleton*, std::size_t> order_;
+  std::vector<const dart::dynamics::Skeleton*> skeletons_;
+  std::unordered_map<const dart::dynamics::Skeleton*, std::size_t> order_; ///< Of these.
 };
 
 } // namespace pydart2

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <dart/collision/Contact.hpp>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -48,6 +49,10 @@ public:
     pairs[*pair].points.push_back({number, &contact});
   }
 
+  /// Calls `tell(number, depth)` with the largest depth to be believed of each.
+  template <class Tell>
+  void each_depth(const Tell& tell) const;
+
   /// The numbers of those that the others make up for.
   std::vector<std::size_t> spare() const;
 
@@ -77,6 +82,25 @@ std::array<std::size_t, 4> extremal(const FacePair& pair)
   const auto c = largest(points, [&](const Eigen::Vector3d& p) { return across.dot(p - from); });
   const auto d = largest(points, [&](const Eigen::Vector3d& p) { return -across.dot(p - from); });
   return {a, b, c, d};
+}
+
+template <class Tell>
+void FacePairs::each_depth(const Tell& tell) const
+{
+  const auto depth = [](const FacePair& pair) {
+    double most = 0.0;
+    for (const auto& point : pair.points)
+      most = std::max(most, point.contact->penetrationDepth);
+    return most;
+  };
+  for (const auto& [bodies, known] : of_bodies_) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto pair : known)
+      least = std::min(least, depth(pairs[pair]));
+    for (const auto pair : known)
+      for (const auto& point : pairs[pair].points)
+        tell(point.number, std::min(point.contact->penetrationDepth, 2.0 * least));
+  }
 }
 
 std::vector<std::size_t> FacePairs::spare() const
@@ -114,11 +138,26 @@ void keep_extremal_contacts(ConstrainedGroup& group)
     group.removeConstraint(constraint);
 }
 
-void keep_extremal_contacts(std::vector<ContactTerms>& contacts)
+namespace {
+
+FacePairs face_pairs(const std::vector<ContactTerms>& contacts)
 {
   FacePairs pairs;
   for (std::size_t i = 0; i < contacts.size(); ++i)
     pairs.add(i, contacts[i].bodies, *contacts[i].contact);
+  return pairs;
+}
+
+} // namespace
+
+void doubt_depths(std::vector<ContactTerms>& contacts)
+{
+  face_pairs(contacts).each_depth([&](std::size_t number, double depth) { contacts[number].depth = depth; });
+}
+
+void keep_extremal_contacts(std::vector<ContactTerms>& contacts)
+{
+  const FacePairs pairs = face_pairs(contacts);
   std::vector<bool> spare(contacts.size(), false);
   for (const auto number : pairs.spare())
     spare[number] = true;

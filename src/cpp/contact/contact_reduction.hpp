@@ -12,4 +12,8 @@ namespace pydart2 {
 void keep_extremal_contacts(dart::constraint::ConstrainedGroup& group);
 void keep_extremal_contacts(std::vector<ContactTerms>& contacts);
 
+/// Two shapes part along the normal with the least depth. What a detector of triangles says of others between the same
+/// bodies, as that a box which stands on another is 20 cm inside its side, is taken for at most twice that.
+void doubt_depths(std::vector<ContactTerms>& contacts);
+
 } // namespace pydart2

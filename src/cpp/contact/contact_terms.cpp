@@ -75,6 +75,7 @@ ContactTerms ContactReader::read(dart::collision::Contact& contact)
     terms.slip[i] = a.slip[i] + b.slip[i];
   }
   terms.restitution = a.restitution * b.restitution;
+  terms.depth = contact.penetrationDepth;
   return terms;
 }
 

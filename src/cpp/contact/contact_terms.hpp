@@ -16,6 +16,7 @@ struct ContactTerms
   std::array<double, 2> friction{0.0, 0.0}; ///< Coefficients along the tangents.
   std::array<double, 2> slip{0.0, 0.0}; ///< Compliance along the tangents, m/(N s).
   double restitution = 0.0;
+  double depth = 0.0; ///< Of which something is taken away, m.
 
   bool has_friction() const;
 };

@@ -66,12 +66,53 @@ void FastConstraintSolver::set_warm_start(bool enable)
   forget();
 }
 
-void FastConstraintSolver::solve_step()
+namespace {
+
+struct PutBack
+{
+  ~PutBack() { place.swap(was); }
+
+  std::vector<dart::dynamics::SkeletonPtr>& place;
+  std::vector<dart::dynamics::SkeletonPtr> was;
+};
+
+} // namespace
+
+void FastConstraintSolver::solve_step(const Awake* awake)
 {
   if (solver_ == Solver::iterative)
-    solve_by_sweeps();
+    iterative_.begin_step(mSkeletons);
+  const PutBack all{mSkeletons, mSkeletons};
+  if (awake != nullptr)
+    mSkeletons = awake->skeletons;
+  if (solver_ == Solver::iterative)
+    solve_by_sweeps(awake);
+  else if (awake == nullptr)
+    ConstraintSolver::solve();
   else
-    solve();
+    solve(*awake);
+}
+
+/// The engine's solve(), with what wakes.
+void FastConstraintSolver::solve(const Awake& awake)
+{
+  for (const auto& skeleton : mSkeletons) {
+    skeleton->clearConstraintImpulses();
+    skeleton->setImpulseApplied(false);
+  }
+  updateConstraints();
+  if (wake(&awake))
+    updateConstraints();
+  buildConstrainedGroups();
+  solveConstrainedGroups();
+}
+
+bool FastConstraintSolver::wake(const Awake* awake)
+{
+  if (awake == nullptr || !awake->wake(mCollisionResult))
+    return false;
+  mSkeletons = awake->skeletons;
+  return true;
 }
 
 std::vector<double> FastConstraintSolver::memory() const

@@ -3,6 +3,7 @@
 #include <dart/constraint/BoxedLcpConstraintSolver.hpp>
 #include <dart/constraint/DynamicJointConstraint.hpp>
 #include <dart/simulation/World.hpp>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -43,8 +44,16 @@ public:
 
   IterativeSolver& iterative() { return iterative_; }
 
-  /// solve() by the chosen solver.
-  void solve_step();
+  /// Those that a step is about, where not all are: others touch nothing that moves, or `wake` lets them take part when
+  /// asked with the contacts, which are then found anew.
+  struct Awake
+  {
+    std::vector<dart::dynamics::SkeletonPtr>& skeletons;
+    std::function<bool(const dart::collision::CollisionResult&)> wake;
+  };
+
+  /// solve() by the chosen solver; null for all skeletons.
+  void solve_step(const Awake* awake);
 
   /// What the chosen solver remembers of the step before, and back; false, and nothing changes, if these are other
   /// numbers.
@@ -71,9 +80,11 @@ protected:
   void solveConstrainedGroup(dart::constraint::ConstrainedGroup& group) override;
 
 private:
-  void solve_by_sweeps();
-  void gather();
-  void gather_from_groups();
+  void solve(const Awake& awake);
+  bool wake(const Awake* awake);
+  void solve_by_sweeps(const Awake* awake);
+  void gather(const Awake* awake);
+  void gather_from_groups(const Awake* awake);
   void add_joint_constraints(const dart::dynamics::Skeleton& skeleton);
   bool all_known() const;
   void scale_error(dart::constraint::ConstraintBase& constraint) const;

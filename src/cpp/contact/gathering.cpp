@@ -38,20 +38,19 @@ bool has_soft_body(const ConstraintBasePtr& constraint)
 
 } // namespace
 
-void FastConstraintSolver::solve_by_sweeps()
+void FastConstraintSolver::solve_by_sweeps(const Awake* awake)
 {
-  iterative_.begin_step(mSkeletons);
   for (const auto& skeleton : mSkeletons) {
     skeleton->clearConstraintImpulses();
     skeleton->setImpulseApplied(false);
   }
   if (all_known())
-    gather();
+    gather(awake);
   else
-    gather_from_groups();
-  // The native detector has no more than four points of a pair of faces.
-  const bool reduce = contact_reduction_ && mCollisionDetector->getType() != "native";
-  iterative_.solve(mTimeStep, warm_start_, reduce);
+    gather_from_groups(awake);
+  // The native detector has no more than four points of a pair of faces, and their depths are right.
+  const bool native = mCollisionDetector->getType() == "native";
+  iterative_.solve(mTimeStep, warm_start_, contact_reduction_ && !native, !native);
 }
 
 bool FastConstraintSolver::all_known() const
@@ -63,7 +62,7 @@ bool FastConstraintSolver::all_known() const
 }
 
 /// The engine's updateConstraints() without its contact constraints.
-void FastConstraintSolver::gather()
+void FastConstraintSolver::gather(const Awake* awake)
 {
   mActiveConstraints.clear();
   mContactConstraints.clear();
@@ -78,10 +77,15 @@ void FastConstraintSolver::gather()
     if (constraint->isActive())
       iterative_.add(constraint);
   };
+  const auto collide = [this] {
+    mCollisionResult.clear();
+    mCollisionGroup->collide(mCollisionOption, &mCollisionResult);
+  };
+  collide();
+  if (wake(awake))
+    collide();
   for (const auto& constraint : mManualConstraints)
     take(constraint);
-  mCollisionResult.clear();
-  mCollisionGroup->collide(mCollisionOption, &mCollisionResult);
   for (std::size_t i = 0; i < mCollisionResult.getNumContacts(); ++i)
     if (auto& contact = mCollisionResult.getContact(i);
         !Contact::isZeroNormal(contact.normal) && contact.penetrationDepth >= 0.0)
@@ -115,9 +119,11 @@ void FastConstraintSolver::add_joint_constraints(const Skeleton& skeleton)
 
 /// With the engine's constraints and groups, of which those with soft bodies or constraints of unknown kinds are solved
 /// exactly, here and now.
-void FastConstraintSolver::gather_from_groups()
+void FastConstraintSolver::gather_from_groups(const Awake* awake)
 {
   updateConstraints();
+  if (wake(awake))
+    updateConstraints();
   buildConstrainedGroups();
   shared_ = mConstrainedGroups.size() > 1 && groups_share_skeletons();
   for (auto& group : mConstrainedGroups) {

@@ -57,9 +57,11 @@ bool IterativeSolver::knows(const dart::constraint::ConstraintBase& constraint)
   return rows.kind != Rows::Kind::unknown;
 }
 
-void IterativeSolver::solve(double time_step, bool warm, bool reduce)
+void IterativeSolver::solve(double time_step, bool warm, bool reduce, bool doubt)
 {
   share_slip(contacts_);
+  if (doubt)
+    doubt_depths(contacts_);
   if (reduce)
     keep_extremal_contacts(contacts_);
   find_sources();
@@ -203,7 +205,7 @@ void IterativeSolver::fill(double time_step)
     block.force_mixing = block.contact ? ContactConstraint::getConstraintForceMixing()
                                        : rows_[static_cast<std::size_t>(sources_[i].constraint)].force_mixing;
     if (block.contact)
-      block.depth = contacts_[static_cast<std::size_t>(sources_[i].contact)].contact->penetrationDepth;
+      block.depth = contacts_[static_cast<std::size_t>(sources_[i].contact)].depth;
   }
 }
 

@@ -33,8 +33,8 @@ public:
   void add(dart::collision::Contact& contact) { contacts_.push_back(reader_.read(contact)); }
 
   /// Finds the impulses, which are remembered for the next step, and hands them to the trees; the contacts get their
-  /// forces. Free bodies have theirs when move_free_bodies() is called.
-  void solve(double time_step, bool warm, bool reduce);
+  /// forces. Depths are doubted where the detector's may be wrong. Free bodies have theirs when move_free_bodies() is called.
+  void solve(double time_step, bool warm, bool reduce, bool doubt);
   void move_free_bodies(double time_step);
 
   /// Adds to the velocities of joints what takes depth away, for the time of an integration of positions; and takes it

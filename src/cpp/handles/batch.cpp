@@ -138,6 +138,7 @@ void BatchHandle::rollout(long skeleton, const MatrixIn& actions, long hold, con
     double* row = trajectories.data + static_cast<long>(i) * trajectories.cols;
     for (long t = 0; t < times; ++t, action += num_dofs, row += size) {
       for (long k = 0; k < hold; ++k) {
+        world.about_to_change(*world.skeletons[chosen]);
         skel.setForces(Row(action, num_dofs));
         step();
       }
@@ -205,7 +206,12 @@ void BatchHandle::set_rows(long skeleton, const MatrixIn& rows, const char* what
   check::shape(rows, worlds_.size(), cols, what);
   check::finite(VectorIn{rows.data, rows.rows * rows.cols}, what);
   for (std::size_t i = 0; i < worlds_.size(); ++i)
-    set(*this->skeleton(i, skeleton).skeleton, Row(rows.data + static_cast<long>(i) * rows.cols, rows.cols));
+  {
+    const Row row(rows.data + static_cast<long>(i) * rows.cols, rows.cols);
+    auto& item = this->skeleton(i, skeleton);
+    worlds_[i]->about_to_change(item);
+    set(*item.skeleton, row);
+  }
 }
 
 void BatchHandle::set_positions(long skeleton, const MatrixIn& positions)

@@ -289,7 +289,7 @@ void BodyNodeHandle::add_ext_force(
 {
   check::finite(force, "force");
   check::finite(offset, "offset");
-  body_->addExtForce(force, offset, force_local, offset_local);
+  body_.get_to_push(!force.isZero(0.0))->addExtForce(force, offset, force_local, offset_local);
 }
 
 void BodyNodeHandle::set_ext_force(
@@ -297,19 +297,19 @@ void BodyNodeHandle::set_ext_force(
 {
   check::finite(force, "force");
   check::finite(offset, "offset");
-  body_->setExtForce(force, offset, force_local, offset_local);
+  body_.get_to_push(!force.isZero(0.0))->setExtForce(force, offset, force_local, offset_local);
 }
 
 void BodyNodeHandle::add_ext_torque(const Eigen::Vector3d& torque, bool local)
 {
   check::finite(torque, "torque");
-  body_->addExtTorque(torque, local);
+  body_.get_to_push(!torque.isZero(0.0))->addExtTorque(torque, local);
 }
 
 void BodyNodeHandle::set_ext_torque(const Eigen::Vector3d& torque, bool local)
 {
   check::finite(torque, "torque");
-  body_->setExtTorque(torque, local);
+  body_.get_to_push(!torque.isZero(0.0))->setExtTorque(torque, local);
 }
 
 template <class Columns>

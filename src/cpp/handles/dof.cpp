@@ -154,7 +154,7 @@ double DofHandle::force() const
 void DofHandle::set_force(double force)
 {
   check::finite(force, "force");
-  dof_->setForce(force);
+  dof_.get_to_push(force != 0.0)->setForce(force);
 }
 
 double DofHandle::force_lower_limit() const
@@ -189,7 +189,7 @@ double DofHandle::command() const
 void DofHandle::set_command(double command)
 {
   check::finite(command, "command");
-  dof_->setCommand(command);
+  dof_.get_to_push(command != 0.0)->setCommand(command);
 }
 
 double DofHandle::spring_stiffness() const

@@ -3,6 +3,7 @@
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <string>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "state/world_record.hpp"
@@ -35,8 +36,21 @@ public:
     return part_;
   }
 
+  /// What may change the skeleton is a non-const method of a handle, and wakes it.
+  T* get()
+  {
+    T* const part = std::as_const(*this).get();
+    world->about_to_change(*skeleton);
+    return part;
+  }
+
+  /// The same for a force, unless that is zero.
+  T* get_to_push(bool pushes) { return pushes ? get() : std::as_const(*this).get(); }
+
   T* operator->() const { return get(); }
+  T* operator->() { return get(); }
   T& operator*() const { return *get(); }
+  T& operator*() { return *get(); }
 
   const WorldRef world;
   const SkeletonRef skeleton;

@@ -47,6 +47,12 @@ Shape& ShapeHandle::shape() const
   return *shape; // the node keeps it
 }
 
+Shape& ShapeHandle::shape()
+{
+  node_.get();
+  return std::as_const(*this).shape();
+}
+
 std::string ShapeHandle::type() const
 {
   return shape().getType();
@@ -289,6 +295,12 @@ DynamicsAspect& ShapeNodeHandle::dynamics() const
   if (!node_->hasDynamicsAspect())
     throw Error(Kind::value, "shape node '" + name() + "' takes no part in contacts, so it has no coefficients");
   return *node_->getDynamicsAspect();
+}
+
+DynamicsAspect& ShapeNodeHandle::dynamics()
+{
+  node_.get();
+  return std::as_const(*this).dynamics();
 }
 
 double ShapeNodeHandle::friction_coeff() const

@@ -89,6 +89,7 @@ public:
 
 private:
   dart::dynamics::Shape& shape() const;
+  dart::dynamics::Shape& shape(); ///< To change it.
 
   Node node_;
 };
@@ -122,6 +123,7 @@ public:
 
 private:
   dart::dynamics::DynamicsAspect& dynamics() const;
+  dart::dynamics::DynamicsAspect& dynamics(); ///< To change it.
 
   ShapeHandle::Node node_;
 };

@@ -43,7 +43,7 @@ SkeletonHandle::SkeletonHandle(WorldRef world, SkeletonRef skeleton)
 
 SkeletonHandle::Passes& SkeletonHandle::passes()
 {
-  auto& skel = skeleton();
+  auto& skel = std::as_const(*this).skeleton();
   if (!passes_)
     passes_.reset(new Passes{LinkTree(skel), {}, {}});
   return *passes_;
@@ -68,7 +68,7 @@ void SkeletonHandle::each_dof(Output& out, Read read) const
 
 const Eigen::VectorXd& SkeletonHandle::per_dof(const VectorIn& values, const char* what)
 {
-  check::size(values.size, dofs().size(), what);
+  check::size(values.size, std::as_const(*this).dofs().size(), what);
   check::finite(values, what);
   scratch_ = values.eigen();
   return scratch_;
@@ -102,12 +102,24 @@ double SkeletonHandle::mass() const
 
 bool SkeletonHandle::is_mobile() const
 {
-  return skeleton().isMobile();
+  return skeleton().isMobile() || skeleton_.skeleton->island != 0;
 }
 
 void SkeletonHandle::set_mobile(bool mobile)
 {
   skeleton().setMobile(mobile);
+}
+
+bool SkeletonHandle::is_asleep() const
+{
+  skeleton(); // still there
+  return skeleton_.skeleton->island != 0;
+}
+
+void SkeletonHandle::set_controlled(bool controlled)
+{
+  skeleton_.get();
+  skeleton_.skeleton->controlled = controlled;
 }
 
 bool SkeletonHandle::self_collision_check() const
@@ -266,15 +278,17 @@ void SkeletonHandle::set_forces(const VectorIn& forces)
   if (skeleton_.skeleton->not_numbers)
     return; // nothing moves, and what a controller makes of NaN is NaN
   const auto& values = per_dof(forces, "forces");
-  const auto& dofs = this->dofs();
+  const auto& dofs = skeleton_.get_to_push(!values.isZero(0.0))->getDofs();
   for (std::size_t i = 0; i < dofs.size(); ++i)
     dofs[i]->setForce(values[static_cast<long>(i)]);
 }
 
 void SkeletonHandle::set_commands(const VectorIn& commands)
 {
-  if (!skeleton_.skeleton->not_numbers)
-    skeleton().setCommands(per_dof(commands, "commands"));
+  if (skeleton_.skeleton->not_numbers)
+    return;
+  const auto& values = per_dof(commands, "commands");
+  skeleton_.get_to_push(!values.isZero(0.0))->setCommands(values);
 }
 
 void SkeletonHandle::states(Output& into) const
@@ -468,7 +482,7 @@ void SkeletonHandle::clear_impulse()
   skeleton().clearConstraintImpulses();
 }
 
-void SkeletonHandle::update_fk()
+void SkeletonHandle::update_fk() const
 {
   skeleton().computeForwardKinematics();
 }

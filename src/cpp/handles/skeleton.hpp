@@ -35,6 +35,10 @@ public:
   double mass() const;
   bool is_mobile() const;
   void set_mobile(bool mobile);
+  bool is_asleep() const;
+
+  /// One that a function of the user's acts on never sleeps.
+  void set_controlled(bool controlled);
   bool self_collision_check() const;
   void set_self_collision_check(bool enable);
   bool adjacent_body_check() const;
@@ -95,7 +99,7 @@ public:
 
   void clear_external_forces();
   void clear_impulse();
-  void update_fk();
+  void update_fk() const;
 
   /// A new massless root under TranslationalJoint root_t, the old root below it under EulerJoint root_r (XYZ).
   /// Positions are not converted. Every handle into this skeleton must be taken again.
@@ -119,7 +123,9 @@ public:
 
 private:
   dart::dynamics::Skeleton& skeleton() const { return *skeleton_; }
+  dart::dynamics::Skeleton& skeleton() { return *skeleton_; } ///< To change it.
   const std::vector<dart::dynamics::DegreeOfFreedom*>& dofs() const { return skeleton().getDofs(); }
+  const std::vector<dart::dynamics::DegreeOfFreedom*>& dofs() { return skeleton().getDofs(); }
   dart::dynamics::Skeleton& with_mass() const;
   void forget_root_armature(); ///< The joint goes.
   void check_root_can_change(const char* what) const;

@@ -15,6 +15,7 @@
 #include "loading/loading.hpp"
 #include "state/contact.hpp"
 #include "state/manager.hpp"
+#include "state/sleeping.hpp"
 #include "state/state.hpp"
 #include "state/stepping.hpp"
 #include "state/world_states.hpp"
@@ -98,6 +99,13 @@ WorldRecord& WorldHandle::world() const
   return *record_;
 }
 
+WorldRecord& WorldHandle::to_change()
+{
+  auto& record = world();
+  wake_all(record);
+  return record;
+}
+
 void WorldHandle::destroy()
 {
   if (record_->state != WorldRecord::State::destroyed)
@@ -134,6 +142,7 @@ void WorldHandle::remove_skeleton(long index)
 {
   auto& record = world();
   const auto i = check::index(index, record.skeletons.size(), "skeleton");
+  record.about_to_change(*record.skeletons[i]);
   const auto skeleton = record.skeletons[i]->skeleton;
   auto& solver = *record.world->getConstraintSolver();
   for (auto it = record.constraints.begin(); it != record.constraints.end();) {
@@ -157,6 +166,7 @@ void WorldHandle::remove_skeleton(long index)
   ++record.layout;
   record.skeletons.erase(record.skeletons.begin() + static_cast<long>(i));
   record.recording.each_contact([i](double* row) { forget_skeleton(row, static_cast<int>(i)); });
+  forget_sleeper(record, static_cast<int>(i));
 }
 
 double WorldHandle::time() const
@@ -178,7 +188,7 @@ double WorldHandle::time_step() const
 void WorldHandle::set_time_step(double time_step)
 {
   check::positive(time_step, "time step");
-  world().world->setTimeStep(time_step);
+  to_change().world->setTimeStep(time_step);
 }
 
 Eigen::Vector3d WorldHandle::gravity() const
@@ -189,7 +199,7 @@ Eigen::Vector3d WorldHandle::gravity() const
 void WorldHandle::set_gravity(const Eigen::Vector3d& gravity)
 {
   check::finite(gravity, "gravity");
-  world().world->setGravity(gravity);
+  to_change().world->setGravity(gravity);
 }
 
 long WorldHandle::frame() const
@@ -199,7 +209,7 @@ long WorldHandle::frame() const
 
 void WorldHandle::reset()
 {
-  auto& record = world();
+  auto& record = to_change();
   record.become_numbers();
   record.world->reset();
   for (const auto& skeleton : record.skeletons)
@@ -250,7 +260,7 @@ std::string WorldHandle::collision_detector() const
 
 void WorldHandle::set_collision_detector(const std::string& name)
 {
-  use_detector(*world().world->getConstraintSolver(), make_detector(name));
+  use_detector(*to_change().world->getConstraintSolver(), make_detector(name));
 }
 
 std::string WorldHandle::dynamics() const
@@ -260,7 +270,7 @@ std::string WorldHandle::dynamics() const
 
 void WorldHandle::set_dynamics(const std::string& name)
 {
-  auto& record = world();
+  auto& record = to_change();
   const auto dynamics = dynamics_named(name);
   if (dynamics != Dynamics::fast && record.integrator != Integrator::engine)
     throw Error(
@@ -276,7 +286,7 @@ std::string WorldHandle::integrator() const
 
 void WorldHandle::set_integrator(const std::string& name)
 {
-  auto& record = world();
+  auto& record = to_change();
   const auto integrator = integrator_named(name);
   if (integrator != Integrator::engine && record.dynamics != Dynamics::fast)
     throw Error(Kind::value, "integrator '" + name + "' needs the fast dynamics; world.set_dynamics(\"fast\") comes first");
@@ -292,7 +302,7 @@ std::string WorldHandle::constraint_solver() const
 
 void WorldHandle::set_constraint_solver(const std::string& name)
 {
-  auto& solver = fast_solver(*world().world);
+  auto& solver = fast_solver(*to_change().world);
   solver.set_solver(solver_named(name));
   solver.iterative().options = {}; // they belong to the choice
 }
@@ -305,7 +315,7 @@ void WorldHandle::iterative_options(Output& out) const
 
 void WorldHandle::set_iterative_options(const VectorIn& options)
 {
-  auto& solver = fast_solver(*world().world);
+  auto& solver = fast_solver(*to_change().world);
   solver.iterative().options = options_of(options.eigen());
   solver.set_solver(Solver::iterative);
 }
@@ -347,7 +357,7 @@ bool WorldHandle::contact_reduction() const
 
 void WorldHandle::set_contact_reduction(bool enable)
 {
-  fast_solver(*world().world).set_contact_reduction(enable);
+  fast_solver(*to_change().world).set_contact_reduction(enable);
 }
 
 bool WorldHandle::warm_start() const
@@ -357,7 +367,31 @@ bool WorldHandle::warm_start() const
 
 void WorldHandle::set_warm_start(bool enable)
 {
-  fast_solver(*world().world).set_warm_start(enable);
+  fast_solver(*to_change().world).set_warm_start(enable);
+}
+
+void WorldHandle::sleeping_options(Output& out) const
+{
+  const auto& sleep = world().sleep;
+  auto options = vector(out, sleep.enabled ? 3 : 0);
+  if (sleep.enabled)
+    options << sleep.linear, sleep.angular, sleep.seconds;
+}
+
+void WorldHandle::set_sleeping_options(const VectorIn& options)
+{
+  auto& record = to_change();
+  auto& sleep = record.sleep;
+  if (options.size != 0) {
+    check::size(options.size, 3, "the settings of sleep");
+    for (long i = 0; i < 3; ++i)
+      check::positive(options.data[i], "a setting of sleep");
+    sleep.linear = options.data[0];
+    sleep.angular = options.data[1];
+    sleep.seconds = options.data[2];
+  }
+  sleep.enabled = options.size != 0;
+  find_awake(record);
 }
 
 long WorldHandle::max_contacts() const
@@ -370,7 +404,7 @@ void WorldHandle::set_max_contacts(long most)
 {
   if (most < 0 || most > static_cast<long>(unlimited_contacts))
     throw Error(Kind::value, "the number of contacts must be positive, or None for no limit, got " + std::to_string(most));
-  auto& record = world();
+  auto& record = to_change();
   fast_solver(*record.world).getCollisionOption().maxNumContacts
       = most == 0 ? unlimited_contacts : static_cast<std::size_t>(most);
   record.told_of_contact_limit = false;
@@ -385,7 +419,7 @@ void WorldHandle::set_constraint_error_reduction(double share)
 {
   if (!(share >= 0.0 && share <= 1.0))
     throw Error(Kind::value, "a share of an error is a number from 0 to 1, got " + std::to_string(share));
-  fast_solver(*world().world).set_error_reduction(share);
+  fast_solver(*to_change().world).set_error_reduction(share);
 }
 
 double WorldHandle::contact_memory_limit() const
@@ -401,7 +435,7 @@ void WorldHandle::set_contact_memory_limit(double bytes)
 
 void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)
 {
-  auto& record = world();
+  auto& record = to_change();
   for (const auto* body : {&body1.body(), &body2.body()})
     if (record.index_of(body->getSkeleton()) < 0)
       throw Error(Kind::value, "body '" + body->getName() + "' is not in this world");
@@ -417,7 +451,7 @@ void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle&
 
 void WorldHandle::ignore_no_pair()
 {
-  auto& record = world();
+  auto& record = to_change();
   record.ignored_pairs.clear();
   apply_ignored_pairs(record);
 }
@@ -473,6 +507,7 @@ int WorldHandle::add_constraint(
   added.body1 = &a;
   added.body2 = b;
   added.point = point;
+  wake_held(record, added);
   pydart2::add(added, *record.world->getConstraintSolver());
   record.constraints.push_back(added);
   return added.id;
@@ -502,7 +537,9 @@ bool WorldHandle::constraint_is_enabled(long id) const
 
 void WorldHandle::set_constraint_enabled(long id, bool on)
 {
-  enable(constraint_of(id), *world().world->getConstraintSolver(), on);
+  auto& one = constraint_of(id);
+  wake_held(world(), one);
+  enable(one, *world().world->getConstraintSolver(), on);
 }
 
 void WorldHandle::set_constraint_target(long id, const Eigen::Matrix4d& target)
@@ -511,6 +548,7 @@ void WorldHandle::set_constraint_target(long id, const Eigen::Matrix4d& target)
   if (one.body2 != nullptr || one.kind == ConstraintRecord::Kind::revolute)
     throw Error(Kind::value, "only a ball joint or a weld between a body and the world has a target that can be moved");
   check::rigid(target, "the target of a constraint");
+  wake_held(world(), one);
   set_target(one, Eigen::Isometry3d(target));
 }
 
@@ -533,6 +571,7 @@ bool WorldHandle::remove_constraint(long id)
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.id == id; });
   if (found == all.end())
     return false;
+  wake_held(record, *found);
   remove(*found, *record.world->getConstraintSolver());
   all.erase(found);
   return true;
@@ -545,7 +584,7 @@ int WorldHandle::num_constraints() const
 
 void WorldHandle::remove_all_constraints()
 {
-  auto& record = world();
+  auto& record = to_change();
   record.world->getConstraintSolver()->removeAllConstraints();
   record.constraints.clear();
 }

@@ -94,6 +94,10 @@ public:
   bool warm_start() const;
   void set_warm_start(bool enable);
 
+  /// Linear speed (m/s for a body of 1 m), angular speed (rad/s), and for how long slower ones stay awake (s); none for off.
+  void sleeping_options(Output& out) const;
+  void set_sleeping_options(const VectorIn& options);
+
   /// How many contacts a step takes, 0 for as many as there are.
   long max_contacts() const;
   void set_max_contacts(long most);
@@ -186,6 +190,7 @@ private:
   ConstraintRecord& constraint_of(long id) const;
   explicit WorldHandle(WorldRef record);
   WorldRecord& world() const;
+  WorldRecord& to_change(); ///< All wake.
 
   WorldRef record_;
 };

@@ -6,8 +6,10 @@
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/ShapeNode.hpp>
+#include <unordered_map>
 
 #include "base/errors.hpp"
+#include "state/sleeping.hpp"
 #include "state/stepping.hpp"
 
 namespace pydart2 {
@@ -28,31 +30,56 @@ int shape_index(const dart::dynamics::ShapeNode& node)
   return -1;
 }
 
-Side side(const WorldRecord& world, const dart::collision::CollisionObject& object)
+using Places = std::unordered_map<const dart::dynamics::Skeleton*, int>;
+
+Side side(const Places& places, const dart::collision::CollisionObject& object)
 {
   const auto* node = object.getShapeFrame()->asShapeNode();
   if (node == nullptr)
     return {}; // a SimpleFrame has no body
   const auto body = node->getBodyNodePtr();
-  return {world.index_of(body->getSkeleton()), static_cast<int>(body->getIndexInSkeleton()), shape_index(*node)};
+  const auto found = places.find(body->getSkeleton().get());
+  return {found == places.end() ? -1 : found->second, static_cast<int>(body->getIndexInSkeleton()), shape_index(*node)};
+}
+
+/// Whether it was kept when one of its bodies fell asleep; some detectors find it again.
+bool is_of_sleeper(const WorldRecord& world, const dart::collision::Contact& contact)
+{
+  if (world.sleep.asleep.empty() || world.sleep.contacts_found)
+    return false;
+  for (const auto* object : {contact.collisionObject1, contact.collisionObject2})
+    if (const auto* node = object->getShapeFrame()->asShapeNode())
+      if (world.sleep.asleep.count(node->getBodyNodePtr()->getSkeleton().get()) > 0)
+        return true;
+  return false;
 }
 
 } // namespace
 
 std::size_t num_contacts(const WorldRecord& world)
 {
-  return world.world->getLastCollisionResult().getNumContacts();
+  const auto& found = world.world->getLastCollisionResult().getContacts();
+  if (world.sleep.asleep.empty() || world.sleep.contacts_found)
+    return found.size();
+  return world.sleep.contacts.size()
+         + static_cast<std::size_t>(std::count_if(
+             found.begin(), found.end(), [&](const auto& contact) { return !is_of_sleeper(world, contact); }));
 }
 
 void write_contacts(const WorldRecord& world, double* out)
 {
+  Places places;
+  for (const auto& item : world.skeletons)
+    places.emplace(item->skeleton.get(), static_cast<int>(places.size()));
   const dart::collision::CollisionObject *object1 = nullptr, *object2 = nullptr; // contacts of a pair follow each other
   Side a, b;
   for (const auto& contact : world.world->getLastCollisionResult().getContacts()) {
+    if (is_of_sleeper(world, contact))
+      continue;
     if (contact.collisionObject1 != object1)
-      a = side(world, *(object1 = contact.collisionObject1));
+      a = side(places, *(object1 = contact.collisionObject1));
     if (contact.collisionObject2 != object2)
-      b = side(world, *(object2 = contact.collisionObject2));
+      b = side(places, *(object2 = contact.collisionObject2));
     const auto& p = contact.point;
     const auto& f = contact.force;
     const auto& n = contact.normal;
@@ -61,6 +88,9 @@ void write_contacts(const WorldRecord& world, double* out)
         double(b.body), double(a.shape), double(b.shape), n.x(), n.y(), n.z(), contact.penetrationDepth};
     out = std::copy(row, row + contact_columns, out);
   }
+  if (!world.sleep.contacts_found)
+    for (const auto& contact : world.sleep.contacts)
+      out = std::copy(contact.row.begin(), contact.row.end(), out);
 }
 
 void forget_skeleton(double* row, int index)
@@ -93,8 +123,10 @@ void check_collision(WorldRecord& world)
         skeleton.getDof(i)->setConstraintImpulse(impulses[s][i]);
     }
   };
+  const AllMobile for_now(world);
   try {
     solve_constraints(world, world.world->getTime());
+    world.sleep.contacts_found = true;
   } catch (const Error& error) {
     take_back();
     world.world->getConstraintSolver()->clearLastCollisionResult(); // its forces may not be finite

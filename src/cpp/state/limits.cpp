@@ -43,7 +43,7 @@ void check(const Joint& joint)
 
 void check_limits(WorldRecord& world)
 {
-  for (const auto& item : world.skeletons) {
+  for (const auto& item : world.awake()) {
     if (item->limits_checked)
       continue;
     for (const auto* joint : item->skeleton->getJoints())

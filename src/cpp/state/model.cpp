@@ -61,8 +61,9 @@ void visit_body(Archive& archive, BodyNode& body)
     visit_soft_body(archive, *soft);
 }
 
-void visit_skeleton(Archive& archive, Skeleton& skeleton)
+void visit_skeleton(Archive& archive, SkeletonRecord& item)
 {
+  auto& skeleton = *item.skeleton;
   archive.same(
       std::to_string(skeleton.getNumBodyNodes()) + " bodies, " + std::to_string(skeleton.getNumDofs()) + " dofs, "
       + std::to_string(skeleton.getNumMarkers()) + " markers");
@@ -70,7 +71,8 @@ void visit_skeleton(Archive& archive, Skeleton& skeleton)
     if (archive.count(number) != number) // the numbers are of another skeleton than the texts
       Archive::refuse();
   archive.text([&] { return skeleton.getName(); }, [&](const auto& name) { skeleton.setName(name); });
-  archive.number([&] { return double(skeleton.isMobile()); }, [&](double on) { skeleton.setMobile(on != 0.0); });
+  archive.number(
+      [&] { return double(skeleton.isMobile() || item.island != 0); }, [&](double on) { skeleton.setMobile(on != 0.0); });
   archive.number(
       [&] { return double(skeleton.getSelfCollisionCheck()); },
       [&](double on) { skeleton.setSelfCollisionCheck(on != 0.0); });
@@ -157,6 +159,18 @@ void visit_manner_of_steps(Archive& archive, WorldRecord& record)
     return;
   archive.number([&] { return double(record.deterministic); }, [&](double on) { record.deterministic = on != 0.0; });
   archive.number([&] { return double(record.nan_at_blow_up); }, [&](double on) { record.nan_at_blow_up = on != 0.0; });
+}
+
+void visit_sleep(Archive& archive, Sleep& sleep)
+{
+  sleep.enabled = archive.part("sleep", sleep.enabled);
+  if (!sleep.enabled)
+    return;
+  for (double* number : {&sleep.linear, &sleep.angular, &sleep.seconds})
+    archive.number([&] { return *number; }, [&](double value) {
+      check::positive(value, "a setting of sleep");
+      *number = value;
+    });
 }
 
 void visit_kinds(Archive& archive, std::vector<ConstraintRecord>& constraints)
@@ -272,7 +286,7 @@ void visit_model(Archive& archive, WorldRecord& record)
     world.setGravity(Eigen::Vector3d(g));
   });
   for (const auto& item : record.skeletons) {
-    visit_skeleton(archive, *item->skeleton);
+    visit_skeleton(archive, *item);
     item->limits_checked &= !archive.is_in();
   }
   visit_detector(archive, *world.getConstraintSolver());
@@ -301,6 +315,7 @@ void visit_model(Archive& archive, WorldRecord& record)
     archive.text(
         [&] { return std::string(name_of(record.integrator)); },
         [&](const auto& name) { record.integrator = integrator_named(name); });
+  visit_sleep(archive, record.sleep);
 }
 
 } // namespace pydart2

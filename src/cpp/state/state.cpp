@@ -12,6 +12,7 @@
 #include "contact/fast_solver.hpp"
 #include "engine/protected_members.hpp"
 #include "state/constraint_record.hpp"
+#include "state/sleeping.hpp"
 
 namespace pydart2 {
 
@@ -130,6 +131,8 @@ std::vector<double> state_of(WorldRecord& record)
     throw Error(Kind::simulation, "the world has blown up and has no state to copy; reset() or restore() it first");
   Archive archive;
   visit(archive, record);
+  const auto sleep = sleep_numbers(record);
+  archive.numbers.insert(archive.numbers.end(), sleep.begin(), sleep.end());
   const auto memory = fast_solver(*record.world).memory();
   archive.numbers.insert(archive.numbers.end(), memory.begin(), memory.end());
   return archive.numbers;
@@ -140,8 +143,10 @@ void restore_state(WorldRecord& record, const std::vector<double>& saved)
   auto& solver = fast_solver(*record.world);
   Archive now;
   visit(now, record);
-  const auto size = now.numbers.size();
+  auto size = now.numbers.size();
   const auto state = with_motors(record, saved, size);
+  const auto sleep_begin = size;
+  size += count_sleep_numbers(record, state, size);
   if (state.size() < size || (state.size() > size && !solver.warm_start()))
     check::size(static_cast<long>(state.size()), size, "the snapshot");
   if (!Eigen::Map<const Eigen::VectorXd>(state.data(), static_cast<long>(state.size())).allFinite())
@@ -149,8 +154,10 @@ void restore_state(WorldRecord& record, const std::vector<double>& saved)
   const auto end = state.begin() + static_cast<std::ptrdiff_t>(size);
   if (!solver.remember({end, state.end()}))
     throw Error(Kind::value, "the snapshot does not end with what a solver with a warm start remembers");
+  wake_all(record);
   Archive archive({}, {state.begin(), end});
   visit(archive, record);
+  restore_sleep(record, state.data() + sleep_begin);
   record.become_numbers();
   forget_history(record);
 }

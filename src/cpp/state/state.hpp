@@ -7,8 +7,8 @@
 namespace pydart2 {
 
 /// All that a step changes and the next one depends on: time, frame, positions, velocities, accelerations, forces,
-/// commands, external forces, constraint impulses, the points of soft bodies. With a warm start, the last numbers are
-/// what the solver remembers.
+/// commands, external forces, constraint impulses, the points of soft bodies, who sleeps. With a warm start, the last numbers
+/// are what the solver remembers.
 std::vector<double> state_of(WorldRecord& world);
 
 /// Puts it back and forgets the history; ValueError, with nothing changed, if it is not finite or of another model.

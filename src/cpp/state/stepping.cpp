@@ -21,6 +21,7 @@
 #include "dynamics/weightless.hpp"
 #include "state/dof_state.hpp"
 #include "state/limits.hpp"
+#include "state/sleeping.hpp"
 #include "state/state.hpp"
 
 namespace pydart2 {
@@ -210,7 +211,7 @@ void check_range(const WorldRecord& record, bool ode, double time)
           + body.getName() + "' of skeleton '" + body.getSkeleton()->getName() + "' is " + text(far)
           + " m from the origin along an axis, the range is " + text(limit) + " m");
   };
-  for (const auto& item : record.skeletons)
+  for (const auto& item : record.awake())
     for (const auto* body : item->skeleton->getBodyNodes()) {
       const double far = body->getWorldTransform().translation().cwiseAbs().maxCoeff();
       check(far, "body", *body);
@@ -235,6 +236,80 @@ void tell_of_large_groups(WorldRecord& record, double time)
          << " rows, for which an exact solver takes long; set_constraint_solver(\"iterative\") takes time with their number\n";
 }
 
+/// What moves a skeleton in this step.
+TreeDynamics* choose_mover(const WorldRecord& record, SkeletonRecord& item)
+{
+  auto* ours = record.dynamics == Dynamics::fast ? item.dynamics() : nullptr;
+  return ours != nullptr && ours->is_for_engine() ? nullptr : ours;
+}
+
+void accelerate(SkeletonRecord& item, double dt)
+{
+  const WithArmature with_armature(item.armature, dt);
+  if (item.mover != nullptr)
+    item.mover->accelerate();
+  else
+    item.skeleton->computeForwardDynamics();
+}
+
+/// Whether a skeleton's steps may be other than the engine's.
+bool has_integrator(const WorldRecord& record, const SkeletonRecord& item)
+{
+  return record.integrator != Integrator::engine && item.skeleton->getNumSoftBodyNodes() == 0
+         && item.skeleton->getNumDofs() > 0;
+}
+
+/// Before the velocities are predicted by the engine's rule, with accelerations made implicit where that is wanted.
+void prepare_integrator(const WorldRecord& record, SkeletonRecord& item, double dt)
+{
+  if (record.integrator == Integrator::implicit)
+    item.integrator().make_implicit(item.armature, dt);
+  else
+    item.integrator().begin();
+}
+
+/// The velocities of a skeleton without contacts and constraints.
+void predict(const WorldRecord& record, SkeletonRecord& item, double end)
+{
+  auto& skeleton = *item.skeleton;
+  const double dt = record.world->getTimeStep();
+  item.motors.act(skeleton, item.armature, dt);
+  item.mover = choose_mover(record, item);
+  accelerate(item, dt);
+  if (has_integrator(record, item))
+    prepare_integrator(record, item, dt);
+  if (item.mover != nullptr)
+    item.mover->integrate_velocities(dt);
+  else
+    skeleton.integrateVelocities(dt);
+  item.watch->check_velocities(end);
+  if (has_integrator(record, item))
+    item.integrator().keep_prediction();
+}
+
+/// With those that are awake, and what their contacts wake.
+void solve(WorldRecord& record, double end)
+{
+  auto& solver = fast_solver(*record.world);
+  auto* group = native_group(solver); // with the order of the shapes
+  if (group != nullptr)
+    group->set_asleep(record.sleep.asleep, record.sleep.version);
+  if (record.sleep.asleep.empty())
+    return solver.solve_step(nullptr);
+  const FastConstraintSolver::Awake awake{record.sleep.awake_skeletons, [&](const dart::collision::CollisionResult& contacts) {
+    const auto woken = wake_touched(record, contacts);
+    for (const auto& item : woken) {
+      item->skeleton->clearConstraintImpulses();
+      watch(*item).save();
+      predict(record, *item, end);
+    }
+    if (group != nullptr)
+      group->set_asleep(record.sleep.asleep, record.sleep.version);
+    return !woken.empty();
+  }};
+  solver.solve_step(&awake);
+}
+
 } // namespace
 
 void solve_constraints(WorldRecord& record, double time)
@@ -242,12 +317,12 @@ void solve_constraints(WorldRecord& record, double time)
   auto& solver = *record.world->getConstraintSolver();
   if (std::exchange(record.shapes_changed, false))
     use_detector(solver, solver.getCollisionDetector());
+  record.sleep.contacts_found = false;
   const bool ode = solver.getCollisionDetector()->getType() == "ode";
   check_range(record, ode, time);
   check_limits(record);
   const auto lock = ode ? lock_ode() : std::unique_lock<OdeMutex>();
-  native_group(solver); // the order of the shapes
-  fast_solver(*record.world).solve_step();
+  solve(record, time);
   tell_of_large_groups(record, time);
   const auto most = solver.getCollisionOption().maxNumContacts;
   if (!record.told_of_contact_limit && solver.getLastCollisionResult().getNumContacts() >= most) {
@@ -286,7 +361,7 @@ std::string suspect(const WorldRecord& record)
 std::vector<SkeletonRef> insane_or_fastest(const WorldRecord& record)
 {
   std::vector<SkeletonRef> found;
-  for (const auto& item : record.skeletons)
+  for (const auto& item : record.awake())
     if (!item->watch->is_sane())
       found.push_back(item);
   const auto* fastest = found.empty() ? find_fastest_dof(record) : nullptr;
@@ -301,38 +376,6 @@ void pass(WorldRecord& record)
 {
   record.world->setTime(record.world->getTime() + record.world->getTimeStep());
   ++record.frame;
-}
-
-/// What moves a skeleton in this step.
-TreeDynamics* choose_mover(const WorldRecord& record, SkeletonRecord& item)
-{
-  auto* ours = record.dynamics == Dynamics::fast ? item.dynamics() : nullptr;
-  return ours != nullptr && ours->is_for_engine() ? nullptr : ours;
-}
-
-void accelerate(SkeletonRecord& item, double dt)
-{
-  const WithArmature with_armature(item.armature, dt);
-  if (item.mover != nullptr)
-    item.mover->accelerate();
-  else
-    item.skeleton->computeForwardDynamics();
-}
-
-/// Whether a skeleton's steps may be other than the engine's.
-bool has_integrator(const WorldRecord& record, const SkeletonRecord& item)
-{
-  return record.integrator != Integrator::engine && item.skeleton->getNumSoftBodyNodes() == 0
-         && item.skeleton->getNumDofs() > 0;
-}
-
-/// Before the velocities are predicted by the engine's rule, with accelerations made implicit where that is wanted.
-void prepare_integrator(const WorldRecord& record, SkeletonRecord& item, double dt)
-{
-  if (record.integrator == Integrator::implicit)
-    item.integrator().make_implicit(item.armature, dt);
-  else
-    item.integrator().begin();
 }
 
 /// The whole step of a skeleton that moves freely; false where the engine's rule has to do.
@@ -367,25 +410,11 @@ void phases(WorldRecord& record)
 {
   auto& world = *record.world;
   const double dt = world.getTimeStep(), end = world.getTime() + dt;
-  for (const auto& item : record.skeletons) {
-    auto& skeleton = *item->skeleton;
-    if (!skeleton.isMobile())
-      continue;
-    item->motors.act(skeleton, item->armature, dt);
-    item->mover = choose_mover(record, *item);
-    accelerate(*item, dt);
-    if (has_integrator(record, *item))
-      prepare_integrator(record, *item, dt);
-    if (item->mover != nullptr)
-      item->mover->integrate_velocities(dt);
-    else
-      skeleton.integrateVelocities(dt);
-    item->watch->check_velocities(end);
-    if (has_integrator(record, *item))
-      item->integrator().keep_prediction();
-  }
+  for (const auto& item : record.awake())
+    if (item->skeleton->isMobile())
+      predict(record, *item, end);
   solve_constraints(record, end);
-  for (const auto& item : record.skeletons) {
+  for (const auto& item : record.awake()) {
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
       continue;
@@ -400,7 +429,7 @@ void phases(WorldRecord& record)
     iterative.move_free_bodies(dt);
     iterative.add_corrections();
   }
-  for (const auto& item : record.skeletons) {
+  for (const auto& item : record.awake()) {
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
       continue;
@@ -430,7 +459,7 @@ void clear_external_forces(Skeleton& skeleton)
 
 void go_back(WorldRecord& record)
 {
-  for (const auto& item : record.skeletons)
+  for (const auto& item : record.awake())
     item->watch->restore();
   record.world->getConstraintSolver()->clearLastCollisionResult(); // its forces may not be finite
 }
@@ -444,7 +473,7 @@ void advance(WorldRecord& record)
     return pass(record);
   if (record.deterministic)
     forget_history(record);
-  for (const auto& item : record.skeletons)
+  for (const auto& item : record.awake())
     watch(*item).save();
   try {
     phases(record);
@@ -465,7 +494,7 @@ void advance(WorldRecord& record)
         "the simulation blew up at t = " + text(world.getTime() + world.getTimeStep()) + " s: " + error.what() + "; " + where
             + "; " + remedy);
   }
-  for (const auto& item : record.skeletons)
+  for (const auto& item : record.awake())
     if (item->skeleton->isMobile()) {
       item->skeleton->clearInternalForces();
       clear_external_forces(*item->skeleton);
@@ -473,6 +502,7 @@ void advance(WorldRecord& record)
         item->skeleton->resetCommands();
     }
   pass(record);
+  fall_asleep(record);
 }
 
 } // namespace pydart2

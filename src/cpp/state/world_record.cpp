@@ -8,6 +8,7 @@
 #include "collision/detector.hpp"
 #include "contact/fast_solver.hpp"
 #include "dynamics/tree_dynamics.hpp"
+#include "state/sleeping.hpp"
 
 namespace pydart2 {
 
@@ -75,6 +76,7 @@ void WorldRecord::clear()
   recording.set_enabled(false);
   constraints.clear();
   ignored_pairs.clear();
+  sleep = {};
   skeletons.clear();
   world.reset();
 }
@@ -85,6 +87,16 @@ void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::st
   skeleton->setName(free_name(skeleton->getName()));
   world->addSkeleton(skeleton);
   skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton, source, false, source.empty()}));
+  if (sleep.enabled) {
+    sleep.awake.push_back(skeletons.back());
+    sleep.awake_skeletons.push_back(skeleton);
+  }
+}
+
+void WorldRecord::about_to_change(SkeletonRecord& skeleton)
+{
+  if (sleep.enabled)
+    wake(*this, skeleton);
 }
 
 std::string WorldRecord::free_name(const std::string& name)

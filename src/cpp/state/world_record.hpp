@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <dart/dynamics/Skeleton.hpp>
 #include <dart/simulation/World.hpp>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -67,9 +69,35 @@ struct SkeletonRecord
 
   std::optional<SkeletonIntegrator> made_integrator;
   int integrator_structure = -1;
+  int island = 0;            ///< With which it sleeps; 0 if it is awake (state/sleeping.hpp).
+  double quiet = 0.0;        ///< s for which it has been slow.
+  bool controlled = false;   ///< By a function of the user's, so that it never sleeps.
+
   long integrator_fallbacks = 0; ///< Steps by the engine's rule where the world has another, since it was chosen.
 };
 using SkeletonRef = std::shared_ptr<SkeletonRecord>;
+
+/// Who sleeps, and when one falls asleep (state/sleeping.hpp).
+struct Sleep
+{
+  bool enabled = false;
+  double linear = 5e-3;  ///< m/s, for a body of 1 m; it grows with the root of the size.
+  double angular = 1e-2; ///< rad/s
+  double seconds = 0.5;
+
+  struct Contact
+  {
+    int island;
+    std::array<double, 16> row; ///< state/contact.hpp
+  };
+  std::vector<Contact> contacts; ///< Those of the sleepers, as they fell asleep.
+  std::unordered_set<const dart::dynamics::Skeleton*> asleep;
+  std::vector<std::shared_ptr<SkeletonRecord>> awake; ///< The others, in their order, while sleeping is on.
+  std::vector<dart::dynamics::SkeletonPtr> awake_skeletons;
+  int last_island = 0;
+  int version = 0;               ///< Of who sleeps.
+  bool contacts_found = false;   ///< Also those of the sleepers, by the last collision detection.
+};
 
 /// A world and what belongs to it, shared by all handles into it.
 struct WorldRecord
@@ -110,6 +138,12 @@ struct WorldRecord
   /// `name`, or if a skeleton has it the first of "name (1)", "name (2)" ... that none has.
   std::string free_name(const std::string& name);
 
+  /// Those that a step has to look at: all but the sleepers.
+  const std::vector<SkeletonRef>& awake() const { return sleep.asleep.empty() ? skeletons : sleep.awake; }
+
+  /// To be called when a skeleton is about to change: it does not stay asleep, nor does what it carries.
+  void about_to_change(SkeletonRecord& skeleton);
+
   /// Index of a skeleton in this world, -1 if it is not in it.
   int index_of(const dart::dynamics::ConstSkeletonPtr& skeleton) const;
 
@@ -132,6 +166,7 @@ struct WorldRecord
   bool nan_at_blow_up = false; ///< Instead of an error.
   bool blown_up = false; ///< Some skeleton reads NaN.
   Recording recording;
+  Sleep sleep;
 
 private:
   std::map<std::string, int> last_numbers_; ///< Of the names that free_name() has numbered.

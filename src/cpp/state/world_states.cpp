@@ -1,5 +1,7 @@
 #include "state/world_states.hpp"
 
+#include "state/sleeping.hpp"
+
 namespace pydart2 {
 
 long num_states(const WorldRecord& world)
@@ -22,6 +24,7 @@ void write_states(const WorldRecord& world, double* out)
 
 void read_states(WorldRecord& world, const double* in)
 {
+  wake_all(world);
   world.become_numbers();
   for (const auto& record : world.skeletons) {
     auto& skeleton = *record->skeleton;
