@@ -18,7 +18,7 @@ from pydart2.contact import Contact
 from pydart2.contact_forces import Contacts
 from pydart2.dof import Dof
 from pydart2.engine import EngineInfo, engine_info
-from pydart2.errors import DestroyedError, LoadError, NameNotFound, PydartError, SimulationError
+from pydart2.errors import DestroyedError, ExportError, LoadError, NameNotFound, PydartError, SimulationError
 from pydart2.frames import SimpleFrame
 from pydart2.inverse_kinematics import IKResult, Target
 from pydart2.joint import (
@@ -75,6 +75,7 @@ __all__ = [
     "Dof",
     "EngineInfo",
     "EulerJoint",
+    "ExportError",
     "FreeJoint",
     "IKResult",
     "Joint",

@@ -35,6 +35,10 @@ class LoadError(PydartError, OSError):
         return error
 
 
+class ExportError(PydartError, ValueError):
+    """A skeleton or world that a file format cannot hold."""
+
+
 class SimulationError(PydartError):
     """A simulation whose state is no longer finite."""
 

@@ -122,6 +122,13 @@ class Joint(Assignable):
         """Follow another joint of the skeleton, ``q = multiplier * q_other + offset``, as actuator type MIMIC."""
         self._handle.set_mimic(joint._handle, multiplier, offset)
 
+    def mimic(self) -> tuple[Joint, float, float] | None:
+        """The joint that it follows by set_mimic(), the multiplier, and the offset, rad or m; None if there is none."""
+        leader = self._handle.mimic_joint()
+        if leader < 0:
+            return None
+        return self.skeleton.joints[leader], self._handle.mimic_multiplier(), self._handle.mimic_offset()
+
     def position_in_world_frame(self) -> NDArray[np.float64]:
         """Centre of the joint, world frame, shape (3,), m."""
         centre: NDArray[np.float64] = self._handle.world_transform_of_child_side()[:3, 3].copy()
@@ -390,11 +397,21 @@ class TranslationalJoint(Joint):
     """Any translation."""
 
 
-class TranslationalJoint2D(Joint):
+class _InPlane(Joint):
+    def axis1(self) -> NDArray[np.float64]:
+        """First direction of translation, a unit vector in the joint's frame, shape (3,)."""
+        return self._handle.axis1()
+
+    def axis2(self) -> NDArray[np.float64]:
+        """Second direction of translation, a unit vector in the joint's frame, shape (3,)."""
+        return self._handle.axis2()
+
+
+class TranslationalJoint2D(_InPlane):
     """Translation in a plane."""
 
 
-class PlanarJoint(Joint):
+class PlanarJoint(_InPlane):
     """Translation in a plane and rotation about its normal."""
 
 

@@ -16,6 +16,7 @@ from pydart2.building.short_forms import ShortForms
 from pydart2.dof import Dof
 from pydart2.dynamics import Dynamics
 from pydart2.errors import DestroyedError, NameNotFound
+from pydart2.exporting.methods import SavedSkeleton
 from pydart2.indexing import Names
 from pydart2.inverse_kinematics import IKResult, Target, solve
 from pydart2.joint import Joint, create_joint
@@ -68,7 +69,7 @@ def _compute_of(controller: Controller) -> Callable[[], ArrayLike]:
     return compute
 
 
-class Skeleton(Dynamics, TargetControl, ShortForms, Assignable):
+class Skeleton(Dynamics, TargetControl, ShortForms, SavedSkeleton, Assignable):
     """A robot or another articulated body, in a world.
 
     ``q``, ``dq``, ``ddq`` are copies: change one and assign it back, or write by name with ``set_positions``::

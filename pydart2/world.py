@@ -19,6 +19,7 @@ from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter
 from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError, NameNotFound
+from pydart2.exporting.methods import SavedWorld
 from pydart2.queries import WorldQueries
 from pydart2.recording import Recording
 from pydart2.scenes import Scenes
@@ -87,7 +88,7 @@ def _rebuild(
     return world
 
 
-class World(WorldBuilding, Scenes, WorldQueries, WorldSleeping, Upright, Named, Assignable):
+class World(WorldBuilding, Scenes, SavedWorld, WorldQueries, WorldSleeping, Upright, Named, Assignable):
     """A simulated world.
 
     >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
     from pydart2.joint import Joint
 
-_JOINTS = {
+#: What add_body() calls a joint → the engine's name.
+JOINTS = {
     "ball": "BallJoint",
     "euler": "EulerJoint",
     "free": "FreeJoint",
@@ -148,9 +149,9 @@ class SkeletonBuilding:
 
 
 def _engine_name(kind: str) -> str:
-    if kind not in _JOINTS:
-        raise ValueError(f"no joint {kind!r}; there are {', '.join(_JOINTS)}")
-    return _JOINTS[kind]
+    if kind not in JOINTS:
+        raise ValueError(f"no joint {kind!r}; there are {', '.join(JOINTS)}")
+    return JOINTS[kind]
 
 
 def _axes_of(kind: str, axis: ArrayLike | None) -> ArrayLike:

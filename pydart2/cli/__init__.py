@@ -12,10 +12,10 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-from pydart2.cli import bench, check, examples, info, inspect, pictures
+from pydart2.cli import bench, check, convert, examples, info, inspect, pictures
 from pydart2.errors import PydartError
 
-_MODULES = (pictures, inspect, check, bench, examples, info)
+_MODULES = (pictures, inspect, check, convert, bench, examples, info)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -145,9 +145,10 @@ class Model(Readable):
             return
         skeleton = world.skeleton(index)
         for dof in (skeleton.dof(i) for i in range(skeleton.num_dofs())):
-            if is_unbounded(dof.position_upper_limit()):
-                dof.set_position_lower_limit(-math.inf)
-                dof.set_position_upper_limit(math.inf)
+            for kind in ("position", "velocity", "force"):
+                for bound, none in (("lower", -math.inf), ("upper", math.inf)):
+                    if is_unbounded(getattr(dof, f"{kind}_{bound}_limit")()):
+                        getattr(dof, f"set_{kind}_{bound}_limit")(none)
 
     def _try(self, world: bool) -> None:
         reason = try_model(self.source, world, self.files) if self.safe else None

@@ -14,7 +14,8 @@ Say = Callable[[Document, Element, str], None]
 
 THICKNESS = 1e-3  # m, of a collision shape without: thinner ones fall through each other at time steps of 1 ms
 _DRAWN = 1e-9  # m
-_UNBOUNDED = "1.7976931348623157e308"  # urdfdom reads no "inf"
+#: The limit that stands for none.
+UNBOUNDED = "1.7976931348623157e308"  # urdfdom reads no "inf"
 _OWNERS = ("visual", "collision", "visualization_shape", "collision_shape")
 _SHAPES = {
     "urdf": ("box", "sphere", "cylinder", "mesh", "capsule"),
@@ -202,8 +203,8 @@ def _mend_limit(document: Document, limit: Element, kind: str, say: Say, bounds_
     elif joint.get("@type") == "revolute":
         document.set(joint, "@type", "continuous")
     elif joint.get("@type") == "prismatic":
-        document.set(limit, "@lower", "-" + _UNBOUNDED)
-        document.set(limit, "@upper", _UNBOUNDED)
+        document.set(limit, "@lower", "-" + UNBOUNDED)
+        document.set(limit, "@upper", UNBOUNDED)
 
 
 def _mend_mimic(document: Document, mimic: Element, joint: Element, say: Say) -> None:
@@ -218,5 +219,5 @@ def _mend_mimic(document: Document, mimic: Element, joint: Element, say: Say) ->
 
 
 def is_unbounded(limit: float) -> bool:
-    """Whether a limit is what mend() writes for none."""
-    return limit == float(_UNBOUNDED)
+    """Whether a limit is what mend() and the writers of files write for none."""
+    return abs(limit) == float(UNBOUNDED)

@@ -66,6 +66,48 @@ def test_the_tree_is_listed_from_the_root_down(capsys: pytest.CaptureFixture[str
     assert sum(body["mass"] for body in atlas["bodies"]) == pytest.approx(atlas["mass"])
 
 
+def test_convert_writes_the_format_of_the_suffix(arm: str, tmp_path: Path) -> None:
+    out = str(tmp_path / "arm.skel")
+    main(["convert", arm, out])
+    main(["convert", out, str(tmp_path / "again.urdf"), "--strict"])
+    texts = [pydart2.World(0.001).add_skeleton(file).to_skel() for file in (arm, str(tmp_path / "again.urdf"))]
+    assert texts[0] == texts[1] == (tmp_path / "arm.skel").read_text()
+
+
+def test_convert_takes_worlds_and_one_of_their_skeletons(tmp_path: Path) -> None:
+    swing, one = tmp_path / "swing.skel", tmp_path / "one.skel"
+    swing.write_text(SWING.replace("<skeleton", "<physics><time_step>0.005</time_step></physics><skeleton", 1))
+    main(["convert", str(swing), str(tmp_path / "world.skel")])
+    assert "<time_step>0.005</time_step>" in (tmp_path / "world.skel").read_text()
+    main(["convert", str(swing), str(tmp_path / "swing.urdf")])
+    main(["convert", "skel/cubes.skel", str(one), "--only", "skeleton_2"])
+    assert pydart2.World(0.001).add_skeleton(one).name == "skeleton_2"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (["skel/chain.skel", "out.urdf"], r"not in URDF: joint 'joint 1' of 'skeleton 1' is of the kind 'ball'"),
+        (["skel/cubes.skel", "out.urdf"], r"not in URDF: a world; save its skeletons one by one"),
+        (["skel/cubes.skel", "out.urdf", "--only", "nobody"], r"no skeleton 'nobody'"),
+        (["skel/cubes.skel", "out.obj"], r"no format for 'out.obj'; its suffix is one of .urdf"),
+        (["none.skel", "out.urdf"], r"no file 'none.skel'"),
+        (["skel/cubes.skel", "nowhere/out.skel"], r"No such file or directory: '.*nowhere/out.skel'"),
+        (
+            ["skel/fullbody1.skel", "out.urdf", "--only", "fullbody1", "--strict"],
+            r"not in URDF: joints of several dofs",
+        ),
+    ],
+)
+def test_convert_says_what_is_wrong(
+    arguments: list[str], reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit, match=f"^pydart2 convert: .*{reason}"):
+        main(["convert", *arguments])
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_check_finds_nothing_wrong(arm: str, capsys: pytest.CaptureFixture[str]) -> None:
     main(["check", arm])
     assert capsys.readouterr().out == "loads    arm: 4 kg, 2 bodies, 7 dofs\n"

@@ -3,9 +3,11 @@
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/EulerJoint.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
+#include <dart/dynamics/PlanarJoint.hpp>
 #include <dart/dynamics/PrismaticJoint.hpp>
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/ScrewJoint.hpp>
+#include <dart/dynamics/TranslationalJoint2D.hpp>
 #include <dart/dynamics/UniversalJoint.hpp>
 #include <utility>
 
@@ -16,9 +18,11 @@ namespace pydart2 {
 using dart::dynamics::BodyNode;
 using dart::dynamics::EulerJoint;
 using dart::dynamics::Joint;
+using dart::dynamics::PlanarJoint;
 using dart::dynamics::PrismaticJoint;
 using dart::dynamics::RevoluteJoint;
 using dart::dynamics::ScrewJoint;
+using dart::dynamics::TranslationalJoint2D;
 using dart::dynamics::UniversalJoint;
 
 namespace {
@@ -119,6 +123,22 @@ void JointHandle::set_mimic(const JointHandle& other, double multiplier, double 
   joint_->setMimicJoint(other.joint_.get(), multiplier, offset);
   joint_->setActuatorType(Joint::MIMIC);
   joint_.skeleton->limits_checked = false;
+}
+
+int JointHandle::mimic_joint() const
+{
+  const Joint* other = joint_->getMimicJoint();
+  return other == nullptr ? -1 : static_cast<int>(other->getJointIndexInSkeleton());
+}
+
+double JointHandle::mimic_multiplier() const
+{
+  return joint_->getMimicMultiplier();
+}
+
+double JointHandle::mimic_offset() const
+{
+  return joint_->getMimicOffset();
 }
 
 int JointHandle::num_dofs() const
@@ -240,7 +260,12 @@ void JointHandle::set_pitch(double pitch)
 
 Eigen::Vector3d JointHandle::axis1() const
 {
-  return as<UniversalJoint>(*joint_, "axis1").getAxis1();
+  Joint& joint = *joint_;
+  if (auto* planar = dynamic_cast<PlanarJoint*>(&joint))
+    return planar->getTranslationalAxis1();
+  if (auto* plane = dynamic_cast<TranslationalJoint2D*>(&joint))
+    return plane->getTranslationalAxis1();
+  return as<UniversalJoint>(joint, "axis1").getAxis1();
 }
 
 void JointHandle::set_axis1(const Eigen::Vector3d& axis)
@@ -251,7 +276,12 @@ void JointHandle::set_axis1(const Eigen::Vector3d& axis)
 
 Eigen::Vector3d JointHandle::axis2() const
 {
-  return as<UniversalJoint>(*joint_, "axis2").getAxis2();
+  Joint& joint = *joint_;
+  if (auto* planar = dynamic_cast<PlanarJoint*>(&joint))
+    return planar->getTranslationalAxis2();
+  if (auto* plane = dynamic_cast<TranslationalJoint2D*>(&joint))
+    return plane->getTranslationalAxis2();
+  return as<UniversalJoint>(joint, "axis2").getAxis2();
 }
 
 void JointHandle::set_axis2(const Eigen::Vector3d& axis)

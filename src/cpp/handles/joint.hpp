@@ -29,6 +29,11 @@ public:
   /// Makes this joint follow another: q = multiplier * q_of_other + offset, with actuator type "MIMIC".
   void set_mimic(const JointHandle& other, double multiplier, double offset);
 
+  /// Index in the skeleton of the joint that it follows, -1 for none.
+  int mimic_joint() const;
+  double mimic_multiplier() const;
+  double mimic_offset() const;
+
   int num_dofs() const;
   int dof(long index) const;
 
@@ -56,6 +61,7 @@ public:
   void set_axis(const Eigen::Vector3d& axis);
   double pitch() const;
   void set_pitch(double pitch);
+  /// Of a universal joint; of a planar and a two-dimensional translational one the directions of translation.
   Eigen::Vector3d axis1() const;
   void set_axis1(const Eigen::Vector3d& axis);
   Eigen::Vector3d axis2() const;

@@ -13,6 +13,7 @@
 #include <dart/dynamics/SphereShape.hpp>
 
 #include "base/checks.hpp"
+#include "engine/shared_scenes.hpp"
 #include "handles/shape_kinds.hpp"
 
 namespace pydart2 {
@@ -204,6 +205,14 @@ Eigen::Vector3d ShapeHandle::scale() const
 std::string ShapeHandle::path() const
 {
   return with(shape(), "path", OneOf<MeshShape>{}, [](auto& s) { return s.getMeshPath(); });
+}
+
+std::string ShapeHandle::mirrored() const
+{
+  return with(shape(), "path", OneOf<MeshShape>{}, [](auto& mesh) {
+    const std::string scheme = mirror_scheme(mesh.getMeshUri2().toString());
+    return scheme.substr(scheme.empty() ? 0 : std::string("mirror-").size());
+  });
 }
 
 ShapeNodeHandle::ShapeNodeHandle(WorldRef world, SkeletonRef skeleton, ShapeNode* node)

@@ -67,6 +67,8 @@ public:
   Eigen::Vector3d scale() const;
   /// Mesh: the file that it came from.
   std::string path() const;
+  /// Mesh: the axes along which the file was mirrored, as "xz"; empty for none (shared_scenes.hpp).
+  std::string mirrored() const;
   /// Mesh, arrow: the meshes in the file, and whether their materials give the colours.
   int num_meshes() const;
   MeshHandle mesh(long index) const;

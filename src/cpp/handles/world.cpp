@@ -456,6 +456,21 @@ void WorldHandle::ignore_no_pair()
   apply_ignored_pairs(record);
 }
 
+void WorldHandle::ignored_pairs(Output& out) const
+{
+  const auto& record = world();
+  auto rows = matrix(out, static_cast<long>(record.ignored_pairs.size()), 4);
+  long row = 0;
+  for (const auto& [body1, body2] : record.ignored_pairs) {
+    for (const auto* body : {body1, body2}) {
+      const long column = body == body1 ? 0 : 2;
+      rows(row, column) = record.index_of(body->getSkeleton());
+      rows(row, column + 1) = static_cast<double>(body->getIndexInSkeleton());
+    }
+    ++row;
+  }
+}
+
 int WorldHandle::num_contacts() const
 {
   return static_cast<int>(pydart2::num_contacts(world()));

@@ -110,6 +110,9 @@ public:
   void ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore);
   void ignore_no_pair();
 
+  /// Rows of skeleton and body of the one, skeleton and body of the other.
+  void ignored_pairs(Output& out) const;
+
   int num_contacts() const;
 
   /// One row per contact (contact.hpp).
