@@ -561,6 +561,10 @@ class Skeleton(Dynamics, TargetControl, ShortForms, SavedSkeleton, Assignable):
         self._tau = self._pattern.copy()
         self._tau[:] = tau
 
+    def _read_tau(self) -> None:
+        """What the engine has is what was last set."""
+        self._tau = self._handle.forces(self._pattern)
+
     def commands(self, out: SkelVector | None = None) -> SkelVector:
         """Commands to the actuators, shape (ndofs,), in the unit of each joint's actuator type. A copy."""
         return self._handle.commands(self._pattern if out is None else out)

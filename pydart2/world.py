@@ -484,6 +484,8 @@ class World(WorldBuilding, Scenes, SavedWorld, WorldQueries, WorldSleeping, Upri
                 "restore(snapshot, strict=False) takes it nevertheless"
             )
         self._handle.restore(snapshot.values)
+        for skel in self.skeletons:
+            skel._read_tau()
         self.collision_result = CollisionResult.from_rows(self, snapshot.contacts)
 
     def clone(self, exact: bool = True) -> World:

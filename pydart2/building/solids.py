@@ -77,7 +77,8 @@ def cylinder(radius: float, height: float) -> Solid:
 def capsule(radius: float, length: float) -> Solid:
     """A cylinder along z, `length` long, with half a sphere at each end."""
     tube, ball = pi * radius**2 * length, 4 / 3 * pi * radius**3
-    tubes = length / (length + 4 / 3 * radius)  # share of the volume
+    whole = length + 4 / 3 * radius
+    tubes = length / whole if whole else 0.0  # share of the volume; sizes of 0 are refused where they are used
     along = (tubes / 2 + (1 - tubes) * 0.4) * radius**2
     # Each half has its centre of mass 3/8 of the radius beyond the end of the tube.
     across_ball = 0.4 * radius**2 + length**2 / 4 + 3 / 8 * length * radius

@@ -428,3 +428,9 @@ def test_short_forms_of_a_fork() -> None:
         world.add_capsule(parent=0, radius=1, length=1, joint_type="REVOLUTE_Q")
     with pytest.raises(ValueError, match="add_empty_skeleton"):
         pydart.World(0.001).add_built_skeleton()
+
+
+@pytest.mark.parametrize(("radius", "length"), [(0.0, 0.0), (3.0, -4.0)])
+def test_a_capsule_without_volume_is_refused(radius: float, length: float) -> None:
+    with pytest.raises(ValueError, match="sizes must be"):
+        pydart.World(0.001).add_capsule(radius, length)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import pickle
 from collections.abc import Callable
 from typing import Any
@@ -91,3 +92,34 @@ def test_infinite_means_none_on_that_side(world: pydart2.World, what: str, side:
     enforce(world)
     serve(world)
     world.step()
+
+
+def far_out(world: pydart2.World, caplog: pytest.LogCaptureFixture) -> list[str]:
+    with caplog.at_level(logging.WARNING, "pydart2"):
+        world.step(3)
+    told = [record.getMessage() for record in caplog.records if "beyond its limits" in record.getMessage()]
+    caplog.clear()
+    return told
+
+
+@pytest.mark.parametrize(
+    ("kind", "far", "told"),
+    [("revolute", 2.0 * np.pi, "is a turn beyond its limits of -0.5 and 1 rad"),
+     ("prismatic", 1.5, "is the length of its range beyond its limits of -0.5 and 1 m")],
+)  # fmt: skip
+def test_a_position_far_beyond_limits_that_do_not_act_is_told_once(
+    kind: str, far: float, told: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    text = f"""<robot name="lift"><link name="base"/><link name="table"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+    <joint name="rail" type="{kind}"><parent link="base"/><child link="table"/><axis xyz="1 0 0"/>
+    <limit lower="-0.5" upper="1" effort="1" velocity="1"/></joint></robot>"""
+    for enforced in (True, False):
+        world = pydart2.World(0.001)
+        dof = world.add_skeleton(text, enforce_limits=enforced).dofs[-1]
+        dof.set_position(1.0 + far - 0.01)
+        assert far_out(world, caplog) == []
+        dof.set_position(1.0 + far + 0.01)
+        lines = far_out(world, caplog)
+        assert [f"dof 'rail' of skeleton 'lift' {told}" in line for line in lines] == ([] if enforced else [True])
+        assert far_out(world, caplog) == []

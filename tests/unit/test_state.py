@@ -175,3 +175,13 @@ def test_another_model_is_refused(tmp_path: Path) -> None:
     bad = Snapshot(np.full_like(snapshot.values, np.nan), snapshot.contacts, snapshot.model)
     with pytest.raises(ValueError, match="must be finite"):
         one.restore(bad, strict=False)
+
+
+def test_restored_forces_are_read() -> None:
+    world = pydart2.World(0.001, "skel/chain.skel")
+    skel = world.skeletons[0]
+    skel.tau = np.full(skel.ndofs, 1.0)
+    saved = world.snapshot()
+    skel.tau = np.full(skel.ndofs, 2.0)
+    world.restore(saved)
+    np.testing.assert_array_equal(skel.tau, 1.0)

@@ -2,6 +2,8 @@
 
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/Joint.hpp>
+#include <cmath>
+#include <dart/common/Console.hpp>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -39,7 +41,53 @@ void check(const Joint& joint)
   }
 }
 
+bool turns(const Joint& joint)
+{
+  const auto& type = joint.getType();
+  return type != "PrismaticJoint" && type != "TranslationalJoint" && type != "TranslationalJoint2D";
+}
+
+void look_for_limits(SkeletonRecord& item)
+{
+  item.far_beyond.clear();
+  const auto& dofs = item.skeleton->getDofs();
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto& dof = *dofs[i];
+    const double lower = dof.getPositionLowerLimit(), upper = dof.getPositionUpperLimit();
+    const bool acts = dof.getJoint()->areLimitsEnforced() || dof.getJoint()->getActuatorType() == Joint::SERVO;
+    if (acts || !(std::isfinite(lower) && std::isfinite(upper) && lower < upper))
+      continue;
+    const double far = turns(*dof.getJoint()) ? 2.0 * M_PI : upper - lower;
+    item.far_beyond.push_back({i, lower - far, upper + far});
+  }
+}
+
+void tell(const DegreeOfFreedom& dof)
+{
+  const bool turning = turns(*dof.getJoint());
+  dtwarn << "[World] dof '" << dof.getName() << "' of skeleton '" << dof.getSkeleton()->getName() << "' is "
+         << (turning ? "a turn" : "the length of its range") << " beyond its limits of " << dof.getPositionLowerLimit()
+         << " and " << dof.getPositionUpperLimit() << (turning ? " rad" : " m")
+         << ", which do not act: skel.set_position_limits_enforced(True) lets those of all its joints act\n";
+}
+
 } // namespace
+
+void tell_of_limits(const WorldRecord& world)
+{
+  for (const auto& item : world.awake()) {
+    if (item->far_beyond.empty())
+      continue;
+    const auto& places = item->dofs().positions;
+    for (const auto& [dof, low, high] : item->far_beyond)
+      if (const double q = *places[dof]; q < low || q > high) {
+        tell(*item->skeleton->getDof(dof));
+        item->far_beyond.clear();
+        item->told_of_limits = true;
+        break;
+      }
+  }
+}
 
 void check_limits(WorldRecord& world)
 {
@@ -48,6 +96,8 @@ void check_limits(WorldRecord& world)
       continue;
     for (const auto* joint : item->skeleton->getJoints())
       check(*joint);
+    if (!item->told_of_limits)
+      look_for_limits(*item);
     item->limits_checked = true;
   }
 }

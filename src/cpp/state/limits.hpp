@@ -9,4 +9,7 @@ namespace pydart2 {
 /// forces of SERVO and MIMIC joints. Looks again only after SkeletonRecord::limits_checked was taken back.
 void check_limits(WorldRecord& world);
 
+/// Warns once of a skeleton of which a dof has gone far beyond limits that do not act: a turn, or the length of the range.
+void tell_of_limits(const WorldRecord& world);
+
 } // namespace pydart2

@@ -502,6 +502,7 @@ void advance(WorldRecord& record)
         item->skeleton->resetCommands();
     }
   pass(record);
+  tell_of_limits(record);
   fall_asleep(record);
 }
 

@@ -114,6 +114,7 @@ std::string WorldRecord::free_name(const std::string& name)
 void WorldRecord::tree_changed(SkeletonRecord& skeleton)
 {
   ++skeleton.structure;
+  skeleton.limits_checked = false;
   if (skeleton.recorded)
     ++layout;
 }

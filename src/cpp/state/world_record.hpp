@@ -40,6 +40,15 @@ struct SkeletonRecord
 
   bool limits_checked = false; ///< Since the last change of a limit or of what acts on it (state/limits.hpp).
 
+  /// A dof and where it is far beyond limits that do not act, until one was.
+  struct FarBeyond
+  {
+    std::size_t dof;
+    double low, high;
+  };
+  std::vector<FarBeyond> far_beyond = {};
+  bool told_of_limits = false;
+
   /// Counts changes of the tree: a handle to a body, joint or dof made before the last one is refused.
   int structure = 0;
 
