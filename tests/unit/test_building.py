@@ -432,5 +432,5 @@ def test_short_forms_of_a_fork() -> None:
 
 @pytest.mark.parametrize(("radius", "length"), [(0.0, 0.0), (3.0, -4.0)])
 def test_a_capsule_without_volume_is_refused(radius: float, length: float) -> None:
-    with pytest.raises(ValueError, match="sizes must be|needs a mass"):
+    with pytest.raises(ValueError, match=r"sizes must be|needs a mass"):
         pydart.World(0.001).add_capsule(radius, length)
