@@ -19,7 +19,7 @@ def add(commands: Any) -> None:
         description="What the format of OUT cannot hold is a warning, or an error if things would move otherwise.",
     )
     add_file(parser)
-    parser.add_argument("output", metavar="OUT", help="its suffix names the format: .urdf, .skel, .sdf")
+    parser.add_argument("output", metavar="OUT", help="its suffix names the format: .urdf, .skel, .sdf, .xml (MJCF)")
     parser.add_argument("--only", metavar="NAME", help="one skeleton of a file that holds several")
     parser.add_argument("--strict", action="store_true", help="let what would be a warning be an error")
     parser.set_defaults(run=run)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import fields
 
 from pydart2.errors import ExportError
@@ -67,22 +67,22 @@ class Losses:
         """Note that two bodies pass through each other."""
         self.add("bodies that pass through each other (create_collision_filter)", f"{one} and {two}")
 
-    def add_skeleton(self, skel: SkeletonPart, *, mobile: bool = False, gravity: bool = False) -> None:
-        """Note what no format holds of a skeleton, but for what is held."""
+    def add_skeleton(self, skel: SkeletonPart, held: Collection[str]) -> None:
+        """Note what there is of a skeleton besides joints, masses and shapes, but for what is held."""
         for words in skel.constraints:
             self.add("constraints", words)
-        for one, two in skel.pairs:
+        for one, two in () if "pairs" in held else skel.pairs:
             self.add_pair(one, two)
-        if not skel.mobile and not mobile:
+        if not skel.mobile and "mobile" not in held:
             self.add("that they do not move (set_mobile)", skel.name)
-        if skel.self_collision:
+        if skel.self_collision and "self_collision" not in held:
             self.add("self-collision", skel.name)
         for link in skel.links:
-            if not link.gravity and not gravity:
+            if not link.gravity and "gravity" not in held:
                 self.add("that gravity does not act (set_gravity_mode)", link.name)
-            if not link.collidable:
+            if not link.collidable and "collidable" not in held:
                 self.add("that they do not collide (set_collidable)", link.name)
-            if link.joint.enforced:
+            if link.joint.enforced and "enforced" not in held:
                 self.add("that position limits are enforced", link.joint.name)
 
     def sentence(self) -> str:

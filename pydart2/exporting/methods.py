@@ -29,8 +29,12 @@ class SavedSkeleton:
         """The text of an SDF file, which loads as this skeleton. ExportError if it cannot."""
         return self._text("SDF", strict)
 
+    def to_mjcf(self, *, strict: bool = False) -> str:
+        """The text of an MJCF file, which MuJoCo compiles to this skeleton. ExportError if it cannot."""
+        return self._text("MJCF", strict)
+
     def save(self, path: str | os.PathLike[str], *, strict: bool = False) -> None:
-        """Write a model file of the format that the suffix names: .urdf, .skel or .sdf.
+        """Write a model file of the format that the suffix names: .urdf, .skel, .sdf or .xml, which is MJCF.
 
         Meshes in the folder of the file, or below, are named by the way from there, others by their whole path.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from pydart2.building.skeletons import JOINTS
 
 if TYPE_CHECKING:
+    from pydart2._native import MeshHandle
     from pydart2.bodynode import BodyNode
     from pydart2.constraints import Constraint
     from pydart2.dof import Dof
@@ -46,12 +48,16 @@ class DofPart:
 
 @dataclass
 class Follows:
-    """``q = multiplier * q of the leader + offset``; the leader by its name, and by those of its dofs."""
+    """``q = multiplier * q of the leader + offset``; the leader by its name, and by those of its dofs.
+
+    `starts` are the initial positions of these.
+    """
 
     leader: str
     dofs: list[str]
     multiplier: float
     offset: float
+    starts: dict[str, float]
 
 
 @dataclass
@@ -87,6 +93,7 @@ class ShapePart:
     """A shape: its kind, as ``"box"``, what the kind has, m, and its pose in the link, shape (4, 4), m.
 
     The colour, shape (4,), 0 to 1, is None for one that is not drawn, and empty if the mesh's own materials give it.
+    `meshes` reads the corners, shape (n, 3), not scaled, and triangles, shape (m, 3), of those of a mesh.
     """
 
     name: str
@@ -97,6 +104,7 @@ class ShapePart:
     collides: bool
     friction: float = 1.0
     restitution: float = 0.0
+    meshes: Callable[[], list[tuple[Array, Array]]] = list
 
     @property
     def drawn(self) -> bool:
@@ -235,8 +243,8 @@ def _joint_part(joint: Joint) -> JointPart:
     part.enforced = joint.is_position_limit_enforced()
     if part.actuator == "MIMIC":
         leader, multiplier, offset = handle.mimic_joint(), handle.mimic_multiplier(), handle.mimic_offset()
-        names = [dof.name for dof in joint.skeleton.joints[leader].dofs]
-        part.follows = Follows(joint.skeleton.joints[leader].name, names, multiplier, offset)
+        starts = {dof.name: dof.initial_position() for dof in joint.skeleton.joints[leader].dofs}
+        part.follows = Follows(joint.skeleton.joints[leader].name, list(starts), multiplier, offset, starts)
     return part
 
 
@@ -284,6 +292,12 @@ def _shape_part(node: ShapeNode) -> ShapePart:
     if rgba is not None and kind == "mesh" and shape.uses_materials():
         rgba = np.zeros(0)
     part = ShapePart(node.name, kind, sizes, handle.relative_transform(), rgba, handle.has_collision_aspect())
+    if kind == "mesh":
+        part.meshes = lambda: [_corners(shape.mesh(i)) for i in range(shape.num_meshes())]
     if handle.has_dynamics_aspect():
         part.friction, part.restitution = handle.friction_coeff(), handle.restitution_coeff()
     return part
+
+
+def _corners(mesh: MeshHandle) -> tuple[Array, Array]:
+    return mesh.vertices(), mesh.triangles()

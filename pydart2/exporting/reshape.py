@@ -123,13 +123,20 @@ def _placed(shape: ShapePart, pose: Array) -> ShapePart:
 def start_of_free(joint: JointPart) -> Array:
     """The motion of a free joint at its initial positions, shape (4, 4), m: a rotation vector, then a translation."""
     vector, place = np.split(np.array([dof.initial for dof in joint.dofs]), 2)
-    motion, angle = np.eye(4), float(np.linalg.norm(vector))
-    motion[:3, 3] = place
-    if angle > 0.0:
-        x, y, z = vector / angle
-        cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-        motion[:3, :3] += math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+    motion = np.eye(4)
+    motion[:3, :3], motion[:3, 3] = rotation_of(vector), place
     return motion
+
+
+def rotation_of(vector: Array) -> Array:
+    """The matrix, shape (3, 3), of an axis times an angle, shape (3,), rad."""
+    angle = float(np.linalg.norm(vector))
+    if angle == 0.0:
+        return np.eye(3)
+    x, y, z = vector / angle
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    matrix: Array = np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+    return matrix
 
 
 def start_free_root(link: LinkPart, losses: Losses) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pydart2.errors import ExportError
-from pydart2.exporting import sdf, skel, urdf
+from pydart2.exporting import mjcf, sdf, skel, urdf
 from pydart2.exporting.losses import Losses
 from pydart2.exporting.numbers import Element, document
 from pydart2.exporting.parts import SkeletonPart, WorldPart, skeleton_part, world_part
@@ -18,8 +18,13 @@ if TYPE_CHECKING:
     from pydart2.world import World
 
 _Writer = Callable[[list[SkeletonPart], WorldPart | None, Losses, str | None], Element]
-_WRITERS: dict[str, _Writer] = {"URDF": urdf.root_of, "SKEL": skel.root_of, "SDF": sdf.root_of}
-_SUFFIXES = {".urdf": "URDF", ".skel": "SKEL", ".sdf": "SDF", ".world": "SDF"}
+_WRITERS: dict[str, _Writer] = {
+    "URDF": urdf.root_of,
+    "SKEL": skel.root_of,
+    "SDF": sdf.root_of,
+    "MJCF": mjcf.root_of,
+}
+_SUFFIXES = {".urdf": "URDF", ".skel": "SKEL", ".sdf": "SDF", ".world": "SDF", ".xml": "MJCF", ".mjcf": "MJCF"}
 
 
 def text_of(

@@ -50,7 +50,7 @@ def _model(home: Element, skel: SkeletonPart, losses: Losses, folder: str | None
     refuse_ground(skel, losses)
     if not skel.mobile:
         add(model, "static", "true")
-    losses.add_skeleton(skel, mobile=True, gravity=True)
+    losses.add_skeleton(skel, {"mobile", "gravity"})
     split_joints(skel, {*_TYPES, "free"}, losses)
     put_frames_at_joints(skel, losses, lambda link: link.joint.kind == "free")
     for link in skel.links:

@@ -49,7 +49,7 @@ def _skeleton(home: Element, skel: SkeletonPart, losses: Losses, folder: str | N
         raise losses.refuse(f"skeleton {skel.name!r} has no body")
     if not skel.mobile:
         add(element, "mobile", "false")
-    losses.add_skeleton(skel, mobile=True, gravity=True)
+    losses.add_skeleton(skel, {"mobile", "gravity"})
     split_joints(skel, _JOINTS, losses)
     poses = world_poses(skel)
     for link in skel.links:

@@ -27,7 +27,7 @@ def root_of(skeletons: list[SkeletonPart], world: WorldPart | None, losses: Loss
     if not skel.links:
         raise losses.refuse(f"skeleton {skel.name!r} has no body")
     refuse_ground(skel, losses)
-    losses.add_skeleton(skel)
+    losses.add_skeleton(skel, ())
     split_joints(skel, _TYPES, losses)
     for link in skel.links:
         if link.joint.kind == "planar":
