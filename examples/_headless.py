@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 import pydart2 as pydart
-from pydart2.gui.first_look import look
+from pydart2.gui.first_look import floor_of, look
 from pydart2.utils.progress import progress
 
 #: What an example claims, in sentences with the measured figures, and whether each holds.
@@ -59,7 +59,8 @@ def rehearse(
     steps
         As many as the claim needs; `--steps` overrides it.
     camera
-        As of `pydart2.gui.render`: 0 is Y up, 1 is Z up. None: one that sees the world as it is now, and stays.
+        As of `pydart2.gui.render`: 0 is Y up, 1 is Z up. None: one that sees the world as it is now,
+        and stays; then a floor is drawn.
     keys
         Step → the key that a user would press before it.
     every
@@ -102,6 +103,8 @@ class Clip:
             self.camera = look(world, PICTURE[0] / PICTURE[1])
         if self.folder is not None:
             self.renderer = pydart.gui.OffscreenRenderer(*PICTURE)
+            if camera is None:
+                self.renderer.scene.show.floor = floor_of(world)
 
     def look(self, step: int) -> None:
         """Take a picture before a step if it is time."""

@@ -6,13 +6,21 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import pydart2
+
+
+@pytest.fixture(autouse=True)
+def _handle_interrupts() -> Iterator[None]:
+    """A shell starts what runs behind its back with interrupts ignored, and then no test would end."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def interrupted(call: Callable[[], object], after: float = 0.3) -> float:
