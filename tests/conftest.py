@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
 from hypothesis import settings
 
@@ -13,6 +15,15 @@ from oracle.models import dart_model
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.register_profile("search", max_examples=2000, deadline=None)
 settings.load_profile("repeatable")
+
+
+@pytest.fixture(autouse=True)
+def verbosity() -> Iterator[None]:
+    """What a test says of ``pydart2.verbose()`` ends with it: after ``init(verbose=False)`` no warning is told."""
+    before = pydart2.verbose()
+    yield
+    if pydart2.verbose() != before:
+        pydart2.set_verbose(before)
 
 
 @pytest.fixture

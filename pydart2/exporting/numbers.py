@@ -26,6 +26,13 @@ def add(parent: Element, tag: str, content: str | None = None, **attributes: str
     return child
 
 
+def add_nonzero(parent: Element, values: dict[str, float]) -> None:
+    """A new child for each number that is not zero."""
+    for tag, value in values.items():
+        if value != 0.0:
+            add(parent, tag, text(value))
+
+
 def document(root: Element) -> str:
     """The text of a file, with a line for each element."""
     ElementTree.indent(root)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from pydart2.exporting.losses import Losses
-from pydart2.exporting.numbers import Element, add, fixed_angles, is_identity, moments, text
+from pydart2.exporting.numbers import Element, add, add_nonzero, fixed_angles, is_identity, moments, text
 from pydart2.exporting.parts import Array, DofPart, JointPart, LinkPart, ShapePart, SkeletonPart, WorldPart
 from pydart2.exporting.reshape import (
     GROUND,
@@ -163,9 +163,7 @@ def _numbers(axis: Element, dof: DofPart) -> None:
         "spring_reference": dof.rest,
         "spring_stiffness": dof.stiffness,
     }
-    for tag, value in values.items():
-        if value != 0.0:
-            add(dynamics, tag, text(value))
+    add_nonzero(dynamics, values)
     if len(dynamics):
         axis.append(dynamics)
 

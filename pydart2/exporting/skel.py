@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from pydart2.exporting.losses import Losses
-from pydart2.exporting.numbers import Element, add, attributes, is_identity, moments, moving_angles, text
+from pydart2.exporting.numbers import Element, add, add_nonzero, attributes, is_identity, moments, moving_angles, text
 from pydart2.exporting.parts import Array, DofPart, JointPart, LinkPart, ShapePart, SkeletonPart, WorldPart
 from pydart2.exporting.reshape import split_joints, world_poses
 from pydart2.exporting.shapes import mesh_file, mesh_scale, note_surfaces, uses
@@ -153,8 +153,6 @@ def _dof(element: Element, joint: JointPart, dof: DofPart, index: int) -> None:
         "spring_rest_position": dof.rest,
         "spring_stiffness": dof.stiffness,
     }
-    for tag, value in values.items():
-        if value != 0.0:
-            add(part, tag, text(value))
+    add_nonzero(part, values)
     if len(part) or "name" in part.attrib:
         element.append(part)

@@ -22,11 +22,4 @@ struct ContactPoint
   std::uint32_t feature;
 };
 
-/// How far apart shapes may be and still have contact points.
-struct ContactMargin
-{
-  double least = 0.0; ///< m; but never more than 1 % of the size of the smaller shape.
-  double time_step = 0.0; ///< s: also what will touch within this time, as the shapes move now.
-};
-
 } // namespace pydart2

@@ -76,7 +76,7 @@ bool NativeDetector::collide(CollisionGroup* group, const CollisionOption& optio
   if (option.maxNumContacts == 0)
     return false;
   touches_.clear();
-  static_cast<NativeGroup*>(group)->scene().find(option.collisionFilter.get(), {}, touches_);
+  static_cast<NativeGroup*>(group)->scene().find(option.collisionFilter.get(), touches_);
   return report(touches_, option, result);
 }
 
@@ -177,17 +177,6 @@ NativeGroup* native_group(dart::constraint::ConstraintSolver& solver)
   if (group != nullptr)
     group->set_order(solver.getSkeletons());
   return group;
-}
-
-void find_contacts(
-    dart::constraint::ConstraintSolver& solver, const ContactMargin& margin, std::vector<native::Touch>& touches)
-{
-  touches.clear();
-  auto* group = native_group(solver);
-  if (group == nullptr)
-    throw Error(Kind::value, "only the native collision detector finds contact points with a margin");
-  group->update();
-  group->scene().find(solver.getCollisionOption().collisionFilter.get(), margin, touches);
 }
 
 } // namespace pydart2

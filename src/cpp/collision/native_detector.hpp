@@ -79,9 +79,4 @@ private:
 /// The solver's group if its detector is a NativeDetector, with the shapes in the order of the skeletons; else null.
 NativeGroup* native_group(dart::constraint::ConstraintSolver& solver);
 
-/// The contact points of a solver's shapes as its collision filter has them, in an order that only the model settles;
-/// ValueError if its detector is another.
-void find_contacts(
-    dart::constraint::ConstraintSolver& solver, const ContactMargin& margin, std::vector<native::Touch>& touches);
-
 } // namespace pydart2

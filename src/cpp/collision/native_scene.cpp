@@ -8,32 +8,6 @@
 
 namespace pydart2::native {
 
-namespace {
-
-/// How far a point of a shape can come.
-double reach_of(const dart::dynamics::ShapeFrame& frame, const Vector& center, const Bounds& bounds, double time)
-{
-  const Vector turning = frame.getAngularVelocity();
-  const Vector moving = frame.getLinearVelocity() + turning.cross(center - frame.getWorldTransform().translation());
-  return time * (moving.norm() + turning.norm() * (bounds.high - bounds.low).norm() / 2.0);
-}
-
-/// How fast the surfaces at a contact point come nearer.
-double closing(const ContactPoint& point)
-{
-  const auto velocity = [&](const dart::dynamics::ShapeFrame& frame) -> Vector {
-    return frame.getLinearVelocity() + frame.getAngularVelocity().cross(point.point - frame.getWorldTransform().translation());
-  };
-  return point.normal.dot(velocity(*point.b) - velocity(*point.a));
-}
-
-double allowed(double least, double size)
-{
-  return std::min(least, 0.01 * size);
-}
-
-} // namespace
-
 Object::Object(dart::collision::CollisionDetector* detector, const dart::dynamics::ShapeFrame* frame)
   : CollisionObject(detector, frame)
 {
@@ -63,7 +37,7 @@ void Scene::set_objects(const std::vector<Object*>& objects)
     if (!bounded)
       unbounded_.push_back(static_cast<int>(items_.size()));
     watched_.push_back(static_cast<int>(items_.size()));
-    items_.push_back({object, body, skeleton, place, bounded, Pose::Identity(), 0.0, 0.0, {}, {}, false, false});
+    items_.push_back({object, body, skeleton, place, bounded, Pose::Identity(), {}, {}, false, false});
     items_.back().pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN()); // equal to no pose
     items_.back().wide = {Vector::Constant(1.0), Vector::Constant(-1.0)}; // contains nothing
   }
@@ -106,12 +80,10 @@ bool Scene::reordered() const
 }
 
 /// Looks where the shapes are; those that have left their wide boxes are escaped.
-void Scene::place(const ContactMargin& margin)
+void Scene::place()
 {
   escaped_.clear();
-  const bool same = margin.least == margin_.least && margin.time_step == margin_.time_step;
-  margin_ = margin;
-  if (!std::exchange(all_placed_, true) || !same) {
+  if (!std::exchange(all_placed_, true)) {
     for (std::size_t i = 0; i < items_.size(); ++i)
       place(static_cast<int>(i));
   } else
@@ -122,24 +94,13 @@ void Scene::place(const ContactMargin& margin)
 void Scene::place(int index)
 {
   auto& item = this->item(index);
-  const auto& geometry = item.object->geometry();
-  const auto* frame = item.object->getShapeFrame();
-  const Pose& pose = frame->getWorldTransform();
-  const double least = allowed(margin_.least, geometry.size);
-  const bool same_margin = margin_.time_step <= 0 && item.reach == 0 && item.least == least;
-  if (same_margin && item.pose.matrix() == pose.matrix())
+  const Pose& pose = item.object->getShapeFrame()->getWorldTransform();
+  if (item.pose.matrix() == pose.matrix())
     return;
   item.pose = pose;
-  item.least = least;
   if (!item.bounded)
     return;
-  item.bounds = bounds_of(geometry, pose);
-  item.reach = 0.0;
-  if (margin_.time_step > 0)
-    item.reach = reach_of(*frame, (item.bounds.low + item.bounds.high) / 2.0, item.bounds, margin_.time_step);
-  const double more = std::max(item.least, item.reach);
-  item.bounds.low.array() -= more;
-  item.bounds.high.array() += more;
+  item.bounds = bounds_of(item.object->geometry(), pose);
   if (!item.wide.contains(item.bounds)) {
     widen(item);
     escaped_.push_back(index);
@@ -172,9 +133,9 @@ void Scene::update_tree()
 }
 
 /// Brings the pairs whose wide boxes overlap up to date.
-void Scene::update(const ContactMargin& margin)
+void Scene::update()
 {
-  place(margin);
+  place();
   if (escaped_.empty())
     return;
   update_tree();
@@ -206,10 +167,9 @@ void Scene::find_pairs_of(int index)
     add(plane);
 }
 
-void Scene::find(
-    const dart::collision::CollisionFilter* filter, const ContactMargin& margin, std::vector<Touch>& touches)
+void Scene::find(const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches)
 {
-  update(margin);
+  update();
   const engine::PairFilter fast(filter);
   for (const auto& [first, second] : watched_.size() == items_.size() ? pairs_ : watched_pairs_) {
     auto &a = item(first), &b = item(second);
@@ -218,35 +178,30 @@ void Scene::find(
     const bool sure = a.body != nullptr && b.body != nullptr && a.skeleton != b.skeleton
                       && (a.skeleton->isMobile() || b.skeleton->isMobile()) && fast.surely_collide(*a.body, *b.body);
     if (sure || filter == nullptr || !filter->ignoresCollision(a.object, b.object))
-      touch(a, b, margin, touches);
+      touch(a, b, touches);
   }
 }
 
-void Scene::touch(Item& a, Item& b, const ContactMargin& margin, std::vector<Touch>& touches)
+void Scene::touch(Item& a, Item& b, std::vector<Touch>& touches)
 {
-  const double least = std::min(a.least, b.least);
   points_.clear();
-  collide(
-      a.object->geometry(), b.object->geometry(), a.pose.inverse(Eigen::Isometry) * b.pose,
-      std::max(least, a.reach + b.reach), points_);
-  for (const auto& point : points_) {
-    ContactPoint made{
-        a.pose * point.at, a.pose.linear() * point.normal, point.depth, a.object->getShapeFrame(),
-        b.object->getShapeFrame(), point.feature};
-    if (-made.depth <= least || -made.depth <= closing(made) * margin.time_step)
-      touches.push_back({made, a.object, b.object});
-  }
+  collide(a.object->geometry(), b.object->geometry(), a.pose.inverse(Eigen::Isometry) * b.pose, 0.0, points_);
+  for (const auto& point : points_)
+    touches.push_back(
+        {{a.pose * point.at, a.pose.linear() * point.normal, point.depth, a.object->getShapeFrame(),
+          b.object->getShapeFrame(), point.feature},
+         a.object, b.object});
 }
 
 void Scene::find_between(Scene& other, const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches)
 {
-  update({});
-  other.update({});
+  update();
+  other.update();
   for (auto& a : items_)
     for (auto& b : other.items_)
       if ((!a.bounded || !b.bounded || a.bounds.overlaps(b.bounds))
           && (filter == nullptr || !filter->ignoresCollision(a.object, b.object)))
-        touch(a, b, {}, touches);
+        touch(a, b, touches);
 }
 
 } // namespace pydart2::native

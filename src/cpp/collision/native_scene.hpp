@@ -51,7 +51,7 @@ public:
   bool reordered() const;
 
   /// The contact points of pairs in the order of their shapes.
-  void find(const dart::collision::CollisionFilter* filter, const ContactMargin& margin, std::vector<Touch>& touches);
+  void find(const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches);
 
   /// Those between shapes of two scenes.
   void find_between(Scene& other, const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches);
@@ -65,9 +65,7 @@ private:
     std::size_t place; ///< Of the body in its skeleton.
     bool bounded;
     Pose pose;
-    double least; ///< The margin that its size allows.
-    double reach; ///< How far it may come in the margin's time.
-    Bounds bounds; ///< With the margin.
+    Bounds bounds;
     Bounds wide; ///< Within which it may move without being looked for anew.
     bool escaped;
     bool asleep;
@@ -75,22 +73,21 @@ private:
   using Pair = std::pair<int, int>;
 
   Item& item(int i) { return items_[static_cast<std::size_t>(i)]; }
-  void place(const ContactMargin& margin);
+  void place();
   void place(int index);
   void widen(Item& item);
-  void update(const ContactMargin& margin);
+  void update();
   void update_tree();
   void find_pairs_of(int index);
   void find_watched_pairs();
-  void touch(Item& a, Item& b, const ContactMargin& margin, std::vector<Touch>& touches);
+  void touch(Item& a, Item& b, std::vector<Touch>& touches);
 
   std::vector<Item> items_;
   std::vector<int> unbounded_;
   std::vector<int> escaped_;
   BoundsTree tree_;
   bool built_ = false;
-  bool all_placed_ = false; ///< With this margin.
-  ContactMargin margin_;
+  bool all_placed_ = false;
   std::vector<Pair> pairs_, new_pairs_;
   std::vector<int> watched_; ///< The items that are not asleep.
   std::vector<Pair> watched_pairs_; ///< All but those of a sleeper with what cannot move.

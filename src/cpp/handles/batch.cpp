@@ -39,6 +39,14 @@ void check_detector(const WorldRecord& world, std::size_t num_threads)
 
 using Row = Eigen::Map<const Eigen::VectorXd>;
 
+/// Sets the forces of a skeleton, which wakes it unless they are zero.
+void push(WorldRecord& world, SkeletonRecord& item, const Row& forces)
+{
+  if (!forces.isZero(0.0))
+    world.about_to_change(item);
+  item.skeleton->setForces(forces);
+}
+
 } // namespace
 
 BatchHandle::BatchHandle(long num_threads) : num_threads_(static_cast<std::size_t>(num_threads))
@@ -133,13 +141,11 @@ void BatchHandle::rollout(long skeleton, const MatrixIn& actions, long hold, con
   check::shape({trajectories.data, trajectories.rows, trajectories.cols}, worlds_.size(),
                static_cast<std::size_t>(times * size), "trajectories");
   each_world([&](WorldRecord& world, std::size_t i, const auto& step) {
-    auto& skel = *world.skeletons[chosen]->skeleton;
     const double* action = actions.data + static_cast<long>(i) * actions.cols;
     double* row = trajectories.data + static_cast<long>(i) * trajectories.cols;
     for (long t = 0; t < times; ++t, action += num_dofs, row += size) {
       for (long k = 0; k < hold; ++k) {
-        world.about_to_change(*world.skeletons[chosen]);
-        skel.setForces(Row(action, num_dofs));
+        push(world, *world.skeletons[chosen], Row(action, num_dofs));
         step();
       }
       write_states(world, row);
@@ -208,25 +214,29 @@ void BatchHandle::set_rows(long skeleton, const MatrixIn& rows, const char* what
   for (std::size_t i = 0; i < worlds_.size(); ++i)
   {
     const Row row(rows.data + static_cast<long>(i) * rows.cols, rows.cols);
-    auto& item = this->skeleton(i, skeleton);
-    worlds_[i]->about_to_change(item);
-    set(*item.skeleton, row);
+    set(*worlds_[i], this->skeleton(i, skeleton), row);
   }
 }
 
 void BatchHandle::set_positions(long skeleton, const MatrixIn& positions)
 {
-  set_rows(skeleton, positions, "positions", [](auto& skel, const auto& q) { skel.setPositions(q); });
+  set_rows(skeleton, positions, "positions", [](auto& world, auto& item, const auto& q) {
+    world.about_to_change(item);
+    item.skeleton->setPositions(q);
+  });
 }
 
 void BatchHandle::set_velocities(long skeleton, const MatrixIn& velocities)
 {
-  set_rows(skeleton, velocities, "velocities", [](auto& skel, const auto& dq) { skel.setVelocities(dq); });
+  set_rows(skeleton, velocities, "velocities", [](auto& world, auto& item, const auto& dq) {
+    world.about_to_change(item);
+    item.skeleton->setVelocities(dq);
+  });
 }
 
 void BatchHandle::set_forces(long skeleton, const MatrixIn& forces)
 {
-  set_rows(skeleton, forces, "forces", [](auto& skel, const auto& tau) { skel.setForces(tau); });
+  set_rows(skeleton, forces, "forces", push);
 }
 
 std::vector<std::string> BatchHandle::errors() const
