@@ -16,7 +16,7 @@ from pydart2._native import WorldHandle
 from pydart2.assignment import Assignable
 from pydart2.building.poses import pose
 from pydart2.building.worlds import WorldBuilding
-from pydart2.collision_filter import CollisionFilter
+from pydart2.collision_filter import CollisionFilter, WorldFilter
 from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError, NameNotFound
 from pydart2.exporting.methods import SavedWorld
@@ -88,7 +88,7 @@ def _rebuild(
     return world
 
 
-class World(WorldBuilding, Scenes, SavedWorld, WorldQueries, WorldSleeping, Upright, Named, Assignable):
+class World(WorldBuilding, Scenes, SavedWorld, WorldQueries, WorldFilter, WorldSleeping, Upright, Named, Assignable):
     """A simulated world.
 
     >>> world = World(1.0 / 2000.0, "./data/skel/cubes.skel")

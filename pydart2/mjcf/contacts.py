@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from pydart2._native import BodyNodeHandle, WorldHandle
+from pydart2._native import WorldHandle
 from pydart2.mjcf.compile import Compiled
 from pydart2.mjcf.trees import Built
 
@@ -37,11 +37,7 @@ def set_filter(model: Compiled, world: WorldHandle, built: Built, mixed: set[str
         world.skeleton(skeleton).set_adjacent_body_check(True)
     for a, b in never:
         if a[0] != b[0] or a[0] in within:
-            world.ignore_pair(_body(world, a), _body(world, b), True)
-
-
-def _body(world: WorldHandle, node: tuple[int, int]) -> BodyNodeHandle:
-    return world.skeleton(node[0]).bodynode(node[1])
+            world.ignore_pairs(np.array([a], dtype=float), np.array([b], dtype=float), True)
 
 
 def _masks(model: Compiled, body: int) -> list[tuple[int, int]]:
@@ -72,7 +68,7 @@ def add_equalities(model: Compiled, world: WorldHandle, built: Built, unknown: s
         kind = int(model.eq_type[i])
         first, second = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
         if kind == _CONNECT and {first, second} <= set(built.places) and int(model.eq_objtype[i]) == 1:
-            a, b = (_body(world, built.places[body]) for body in (first, second))
+            a, b = (world.skeleton(s).bodynode(b) for s, b in (built.places[body] for body in (first, second)))
             world.add_ball_joint_constraint(a, b, a.to_world(np.array(model.eq_data[i][:3])))
         elif kind == _JOINT and second >= 0 and not np.any(model.eq_data[i][2:5]):
             _mimic(model, world, built, i, unknown)

@@ -60,6 +60,11 @@ struct Bounds
   {
     return (low.array() <= other.low.array()).all() && (other.high.array() <= high.array()).all();
   }
+  /// 0 where they overlap.
+  double distance(const Bounds& other) const
+  {
+    return (other.low - high).cwiseMax(low - other.high).cwiseMax(0.0).norm();
+  }
   void add(const Bounds& other)
   {
     low = low.cwiseMin(other.low);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <queue>
 #include <utility>
 #include <vector>
 
@@ -61,6 +63,31 @@ public:
       } else {
         stack.push_back(node.right);
         stack.push_back(node.left);
+      }
+    }
+  }
+
+  /// Calls `use` with the leaves in the order of the `least` of their boxes, as long as that is not more than what `use`
+  /// last returned, or `most` at first.
+  template <class Least, class Use>
+  void nearest(double most, const Least& least, const Use& use) const
+  {
+    using Next = std::pair<double, int>;
+    std::priority_queue<Next, std::vector<Next>, std::greater<>> queue;
+    const auto add = [&](int index) {
+      if (const double distance = least(nodes_[static_cast<std::size_t>(index)].bounds); distance <= most)
+        queue.emplace(distance, index);
+    };
+    if (!nodes_.empty())
+      add(0);
+    while (!queue.empty() && queue.top().first <= most) {
+      const Node& node = nodes_[static_cast<std::size_t>(queue.top().second)];
+      queue.pop();
+      if (node.leaf >= 0) {
+        most = use(node.leaf);
+      } else {
+        add(node.left);
+        add(node.right);
       }
     }
   }

@@ -1,5 +1,6 @@
 #include "engine/collision_filter.hpp"
 
+#include <dart/dynamics/ShapeNode.hpp>
 #include <typeinfo>
 
 namespace pydart2::engine {
@@ -21,17 +22,49 @@ template struct Reveal<&BodyNodeCollisionFilter::mBodyNodeBlackList>;
 
 } // namespace
 
+bool may_collide(const BitsOfBodies& bits, const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b)
+{
+  const auto of = [&](const dart::dynamics::BodyNode& body) {
+    const auto found = bits.find(&body);
+    return found == bits.end() ? CollisionBits() : found->second;
+  };
+  const auto first = of(a), second = of(b);
+  return (first.mask & second.group) != 0 && (second.mask & first.group) != 0;
+}
+
+bool BitsFilter::ignoresCollision(
+    const dart::collision::CollisionObject* object1, const dart::collision::CollisionObject* object2) const
+{
+  const auto body = [](const dart::collision::CollisionObject* object) {
+    const auto* node = object->getShapeFrame()->asShapeNode();
+    return node == nullptr ? nullptr : node->getBodyNodePtr().get();
+  };
+  const auto *a = body(object1), *b = body(object2);
+  return (a != nullptr && b != nullptr && !may_collide(bits_, *a, *b))
+         || BodyNodeCollisionFilter::ignoresCollision(object1, object2);
+}
+
 PairFilter::PairFilter(const dart::collision::CollisionFilter* filter) : none_(filter == nullptr)
 {
-  if (!none_ && typeid(*filter) == typeid(BodyNodeCollisionFilter))
+  if (none_)
+    return;
+  const bool has_bits = typeid(*filter) == typeid(BitsFilter);
+  if (has_bits || typeid(*filter) == typeid(BodyNodeCollisionFilter))
     ignored_ = &ignored_pairs(static_cast<const BodyNodeCollisionFilter&>(*filter));
+  if (has_bits)
+    bits_ = &static_cast<const BitsFilter&>(*filter).bits();
 }
 
 bool PairFilter::surely_collide(const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b) const
 {
   if (none_)
     return true;
-  return ignored_ != nullptr && a.isCollidable() && b.isCollidable() && !ignored_->contains(&a, &b);
+  return ignored_ != nullptr && a.isCollidable() && b.isCollidable() && !is_told_to_ignore(a, b);
+}
+
+bool PairFilter::is_told_to_ignore(const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b) const
+{
+  return (ignored_ != nullptr && ignored_->contains(&a, &b)) || (bits_ != nullptr && !may_collide(*bits_, a, b));
 }
 
 } // namespace pydart2::engine

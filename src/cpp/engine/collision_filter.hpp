@@ -2,12 +2,42 @@
 
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/CollisionObject.hpp>
+#include <cstdint>
 #include <dart/dynamics/BodyNode.hpp>
+#include <unordered_map>
 
 /// The engine's filter of pairs of bodies takes 2 µs a pair, most of it for counting references. For bodies of different
 /// skeletons this asks the same questions without; of the engine's private members it relies on
 /// BodyNodeCollisionFilter::mBodyNodeBlackList, and does not compile where that has another name or type.
 namespace pydart2::engine {
+
+/// Two bodies collide only where each's mask has a bit of the other's group.
+struct CollisionBits
+{
+  std::uint32_t group = 1;
+  std::uint32_t mask = 0xffffffff;
+
+  bool usual() const { return group == 1 && mask == 0xffffffff; }
+};
+
+/// Of the bodies whose bits are not those of all.
+using BitsOfBodies = std::unordered_map<const dart::dynamics::BodyNode*, CollisionBits>;
+
+bool may_collide(const BitsOfBodies& bits, const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b);
+
+/// The engine's filter, which also asks for the bits.
+class BitsFilter : public dart::collision::BodyNodeCollisionFilter
+{
+public:
+  explicit BitsFilter(BitsOfBodies bits) : bits_(std::move(bits)) {}
+
+  bool ignoresCollision(
+      const dart::collision::CollisionObject* object1, const dart::collision::CollisionObject* object2) const override;
+  const BitsOfBodies& bits() const { return bits_; }
+
+private:
+  BitsOfBodies bits_;
+};
 
 class PairFilter
 {
@@ -17,11 +47,15 @@ public:
   /// Whether a filter is sure to let the bodies collide; what it says else is to be asked of the filter itself.
   bool surely_collide(const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b) const;
 
+  /// Whether the pair or its bits say that the bodies pass through each other.
+  bool is_told_to_ignore(const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b) const;
+
 private:
   using Pairs = dart::collision::detail::UnorderedPairs<dart::dynamics::BodyNode>;
 
   bool none_ = false; ///< There is no filter.
   const Pairs* ignored_ = nullptr; ///< Null: some other filter.
+  const BitsOfBodies* bits_ = nullptr; ///< Null: all collide.
 };
 
 } // namespace pydart2::engine

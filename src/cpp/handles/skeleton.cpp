@@ -21,10 +21,7 @@ namespace {
 /// Takes what is about to go out of what the world keeps of bodies and dofs.
 void forget_bodies(WorldRecord& world, SkeletonRecord& skeleton, const std::set<const dart::dynamics::BodyNode*>& gone)
 {
-  auto& pairs = world.ignored_pairs;
-  const auto has_gone = [&](const auto& pair) { return gone.count(pair.first) + gone.count(pair.second) != 0; };
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), has_gone), pairs.end());
-  apply_ignored_pairs(world);
+  forget_in_filter(world, gone);
   for (auto one = skeleton.armature.begin(); one != skeleton.armature.end();)
     one = gone.count(one->first->getChildBodyNode()) != 0 ? skeleton.armature.erase(one) : std::next(one);
 }

@@ -151,14 +151,8 @@ void WorldHandle::remove_skeleton(long index)
       remove(*it, solver);
     it = uses ? record.constraints.erase(it) : std::next(it);
   }
-  auto& pairs = record.ignored_pairs;
-  const auto has_skeleton = [&](const auto& pair) {
-    return pair.first->getSkeleton() == skeleton || pair.second->getSkeleton() == skeleton;
-  };
-  if (std::any_of(pairs.begin(), pairs.end(), has_skeleton)) {
-    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), has_skeleton), pairs.end());
-    apply_ignored_pairs(record);
-  }
+  const auto& bodies = skeleton->getBodyNodes();
+  forget_in_filter(record, {bodies.begin(), bodies.end()});
   const auto lock = lock_ode();
   solver.clearLastCollisionResult(); // it points to collision objects that go
   record.world->removeSkeleton(skeleton);
@@ -431,44 +425,6 @@ void WorldHandle::set_contact_memory_limit(double bytes)
 {
   check::positive(bytes, "contact memory limit");
   fast_solver(*world().world).set_memory_limit(bytes);
-}
-
-void WorldHandle::ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore)
-{
-  auto& record = to_change();
-  for (const auto* body : {&body1.body(), &body2.body()})
-    if (record.index_of(body->getSkeleton()) < 0)
-      throw Error(Kind::value, "body '" + body->getName() + "' is not in this world");
-  auto& pairs = record.ignored_pairs;
-  auto pair = std::pair(&body1.body(), &body2.body());
-  if (pair.second < pair.first)
-    std::swap(pair.first, pair.second); // one entry for both orders
-  pairs.erase(std::remove(pairs.begin(), pairs.end(), pair), pairs.end());
-  if (ignore)
-    pairs.push_back(pair);
-  apply_ignored_pairs(record);
-}
-
-void WorldHandle::ignore_no_pair()
-{
-  auto& record = to_change();
-  record.ignored_pairs.clear();
-  apply_ignored_pairs(record);
-}
-
-void WorldHandle::ignored_pairs(Output& out) const
-{
-  const auto& record = world();
-  auto rows = matrix(out, static_cast<long>(record.ignored_pairs.size()), 4);
-  long row = 0;
-  for (const auto& [body1, body2] : record.ignored_pairs) {
-    for (const auto* body : {body1, body2}) {
-      const long column = body == body1 ? 0 : 2;
-      rows(row, column) = record.index_of(body->getSkeleton());
-      rows(row, column + 1) = static_cast<double>(body->getIndexInSkeleton());
-    }
-    ++row;
-  }
 }
 
 int WorldHandle::num_contacts() const

@@ -106,12 +106,16 @@ public:
   double contact_memory_limit() const;
   void set_contact_memory_limit(double bytes);
 
-  /// Two bodies that do not collide with each other, or do again.
-  void ignore_pair(const BodyNodeHandle& body1, const BodyNodeHandle& body2, bool ignore);
+  /// Each of some bodies with each of others do not collide, or do again; rows of skeleton and body.
+  void ignore_pairs(const MatrixIn& a, const MatrixIn& b, bool ignore);
   void ignore_no_pair();
 
   /// Rows of skeleton and body of the one, skeleton and body of the other.
   void ignored_pairs(Output& out) const;
+
+  /// Of bodies, rows of skeleton and body: they collide only where each's mask has a bit of the other's group.
+  void set_collision_bits(const MatrixIn& bodies, double group, double mask);
+  void collision_bits(const BodyNodeHandle& body, Output& out) const;
 
   int num_contacts() const;
 

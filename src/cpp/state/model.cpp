@@ -118,7 +118,32 @@ void visit_ignored_pairs(Archive& archive, WorldRecord& world)
     body2 = visit_reference(archive, world, body2);
   }
   if (archive.is_in())
-    apply_ignored_pairs(world);
+    apply_collision_filter(world);
+}
+
+void visit_collision_bits(Archive& archive, WorldRecord& world)
+{
+  auto& bits = world.collision_bits;
+  if (archive.is_in())
+    bits.clear();
+  if (archive.part("collision bits", !bits.empty()))
+    for (const auto& item : world.skeletons)
+      for (const auto* body : item->skeleton->getBodyNodes()) {
+        const auto found = bits.find(body);
+        auto of = found == bits.end() ? engine::CollisionBits() : found->second;
+        for (auto* value : {&of.group, &of.mask})
+          archive.number(
+              [&] { return double(*value); },
+              [&](double number) {
+                if (!(number >= 0.0 && number <= 4294967295.0))
+                  Archive::refuse();
+                *value = static_cast<std::uint32_t>(number);
+              });
+        if (archive.is_in() && !of.usual())
+          bits[body] = of;
+      }
+  if (archive.is_in())
+    apply_collision_filter(world);
 }
 
 /// What is as in a new world is not saved.
@@ -315,6 +340,7 @@ void visit_model(Archive& archive, WorldRecord& record)
     archive.text(
         [&] { return std::string(name_of(record.integrator)); },
         [&](const auto& name) { record.integrator = integrator_named(name); });
+  visit_collision_bits(archive, record);
   visit_sleep(archive, record.sleep);
 }
 

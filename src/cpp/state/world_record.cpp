@@ -76,6 +76,7 @@ void WorldRecord::clear()
   recording.set_enabled(false);
   constraints.clear();
   ignored_pairs.clear();
+  collision_bits.clear();
   sleep = {};
   skeletons.clear();
   world.reset();
@@ -135,12 +136,33 @@ void WorldRecord::refuse(State seen) const
   throw Error(Kind::destroyed, name + " was destroyed by destroy() or by a later init(); make a new World");
 }
 
-void apply_ignored_pairs(WorldRecord& world)
+void apply_collision_filter(WorldRecord& world)
 {
-  auto filter = std::make_shared<dart::collision::BodyNodeCollisionFilter>();
+  using Filter = dart::collision::BodyNodeCollisionFilter;
+  const auto filter = world.collision_bits.empty() ? std::make_shared<Filter>()
+                                                   : std::make_shared<engine::BitsFilter>(world.collision_bits);
   for (const auto& [body1, body2] : world.ignored_pairs)
     filter->addBodyNodePairToBlackList(body1, body2);
   world.world->getConstraintSolver()->getCollisionOption().collisionFilter = filter;
+}
+
+bool passes_through(const WorldRecord& world, const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b)
+{
+  const auto& filter = world.world->getConstraintSolver()->getCollisionOption().collisionFilter;
+  return engine::PairFilter(filter.get()).is_told_to_ignore(a, b);
+}
+
+void forget_in_filter(WorldRecord& world, const std::set<const dart::dynamics::BodyNode*>& gone)
+{
+  auto& pairs = world.ignored_pairs;
+  const auto has_gone = [&](const auto& pair) { return gone.count(pair.first) + gone.count(pair.second) != 0; };
+  const auto kept = std::remove_if(pairs.begin(), pairs.end(), has_gone);
+  bool any = kept != pairs.end();
+  pairs.erase(kept, pairs.end());
+  for (const auto* body : gone)
+    any |= world.collision_bits.erase(body) != 0;
+  if (any)
+    apply_collision_filter(world);
 }
 
 Busy::Busy(WorldRecord& world) : world_(world)

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "dynamics/dynamics_choice.hpp"
 #include "dynamics/integrator.hpp"
 #include "dynamics/stable_pd.hpp"
+#include "engine/collision_filter.hpp"
 #include "state/constraint_record.hpp"
 #include "state/dof_state.hpp"
 #include "state/recording.hpp"
@@ -163,6 +165,7 @@ struct WorldRecord
   std::vector<ConstraintRecord> constraints;
   int last_constraint = 0; ///< The highest id so far.
   std::vector<std::pair<dart::dynamics::BodyNode*, dart::dynamics::BodyNode*>> ignored_pairs;
+  engine::BitsOfBodies collision_bits;
   std::atomic<State> state{State::ready};
   long frame = 0; ///< Steps since the last reset.
   int layout = 0; ///< Changes when skeletons are removed or get another tree, so that an earlier frame no longer fits.
@@ -183,7 +186,13 @@ private:
 using WorldRef = std::shared_ptr<WorldRecord>;
 
 /// Fills the engine's filter, which holds bare pointers, anew from the record.
-void apply_ignored_pairs(WorldRecord& world);
+void apply_collision_filter(WorldRecord& world);
+
+/// Whether two bodies pass through each other because someone said so.
+bool passes_through(const WorldRecord& world, const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b);
+
+/// Takes bodies that are about to go out of the collision filter.
+void forget_in_filter(WorldRecord& world, const std::set<const dart::dynamics::BodyNode*>& gone);
 
 /// Marks a world busy for the time of a long call, so that a second thread is refused instead of racing.
 class Busy
