@@ -22,8 +22,7 @@ class Constraint:
 
     def __init__(self, body1: BodyNode, body2: BodyNode | None = None) -> None:
         self._bodies = body1, body2
-        self._point = np.zeros(3)
-        self._axis = np.zeros(3)
+        self._numbers = np.zeros(11)  # point, axis, second point, length, whether it is a rope
         self._added: tuple[World, int] | None = None
 
     @property
@@ -42,11 +41,9 @@ class Constraint:
             raise ValueError(f"{self!r} is in a world already")
         first, second = self._bodies
         if second is None:
-            number = world._handle.add_constraint_to_world(self._KIND, first._handle, self._point, self._axis)
+            number = world._handle.add_constraint_to_world(self._KIND, first._handle, self._numbers)
         else:
-            number = world._handle.add_constraint_between(
-                self._KIND, first._handle, second._handle, self._point, self._axis
-            )
+            number = world._handle.add_constraint_between(self._KIND, first._handle, second._handle, self._numbers)
         self._added = world, number
 
     def remove(self) -> None:
@@ -121,27 +118,25 @@ class BallJointConstraint(Constraint):
 
     def __init__(self, body1: BodyNode, body2: BodyNode | None, jointPos: ArrayLike) -> None:
         super().__init__(body1, body2)
-        self._point = _vector(jointPos, "jointPos")
+        self._numbers[:3] = _vector(jointPos, "jointPos")
 
     @property
     def jointPos(self) -> NDArray[np.float64]:  # noqa: N802 (the original's name)
         """Where the point was at the time of add_to_world(), world frame, shape (3,), m. Set before that."""
-        return self._point.copy()
+        return self._numbers[:3].copy()
 
     @jointPos.setter
     def jointPos(self, point: ArrayLike) -> None:  # noqa: N802
         if self.is_active():
             raise ValueError("the bodies are held already: set_target() moves a point that is held in the world")
-        self._point = _vector(point, "jointPos")
+        self._numbers[:3] = _vector(point, "jointPos")
 
     def set_target(self, point: ArrayLike) -> None:
         """Hold body1's point at another one of the world, shape (3,), m: the body is pulled there.
 
         ValueError if there is a second body.
         """
-        target = np.eye(4)
-        target[:3, 3] = _vector(point, "a target")
-        self._move(target)
+        self._move(_at(_vector(point, "a target")))
 
 
 class WeldJointConstraint(Constraint):
@@ -184,20 +179,82 @@ class RevoluteJointConstraint(Constraint):
 
     def __init__(self, body1: BodyNode, body2: BodyNode | None, point: ArrayLike, axis: ArrayLike) -> None:
         super().__init__(body1, body2)
-        self._point, self._axis = _vector(point, "point"), _vector(axis, "axis")
+        self._numbers[:6] = *_vector(point, "point"), *_vector(axis, "axis")
 
     @property
     def point(self) -> NDArray[np.float64]:
         """A point of the axis at the time of add_to_world(), world frame, shape (3,), m."""
-        return self._point.copy()
+        return self._numbers[:3].copy()
 
     @property
     def axis(self) -> NDArray[np.float64]:
         """The axis at the time of add_to_world(), world frame, shape (3,), no unit."""
-        return self._axis.copy()
+        return self._numbers[3:6].copy()
 
 
-_KINDS: tuple[type[Constraint], ...] = (BallJointConstraint, WeldJointConstraint, RevoluteJointConstraint)
+class DistanceConstraint(Constraint):
+    """Keeps two points a length apart: a rod without mass; or, as a rope, no farther than that.
+
+    >>> rope = DistanceConstraint(load, crane, load.C, crane.to_world([0, 0, 2]), rope=True)
+    >>> rope.add_to_world(world)
+
+    Parameters
+    ----------
+    body1, body2
+        Two bodies of one world; None as the second for the world itself.
+    point1, point2
+        A point of each, world frame, shape (3,), m, at the time of add_to_world().
+    length
+        m, > 0; None for what the points are apart.
+    rope
+        Whether they may be nearer.
+    """
+
+    _KIND = 3
+
+    def __init__(
+        self,
+        body1: BodyNode,
+        body2: BodyNode | None,
+        point1: ArrayLike,
+        point2: ArrayLike,
+        length: float | None = None,
+        *,
+        rope: bool = False,
+    ) -> None:
+        super().__init__(body1, body2)
+        one, other = _vector(point1, "point1"), _vector(point2, "point2")
+        apart = float(np.linalg.norm(one - other)) if length is None else float(length)
+        if not 0.0 < apart < np.inf:
+            raise ValueError(f"the length of a distance constraint is > 0 m, got {apart}")
+        self._numbers[:3], self._numbers[6:9], self._numbers[9:] = one, other, (apart, float(rope))
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """Where the two points were at the time of add_to_world(), world frame, shape (2, 3), m."""
+        return self._numbers[[0, 1, 2, 6, 7, 8]].reshape(2, 3)
+
+    @property
+    def length(self) -> float:
+        """m."""
+        return float(self._numbers[9])
+
+    @property
+    def rope(self) -> bool:
+        """Whether the points may be nearer."""
+        return bool(self._numbers[10])
+
+    def set_target(self, point: ArrayLike) -> None:
+        """Move the second point, which is one of the world, shape (3,), m. ValueError if there is a second body."""
+        self._move(_at(_vector(point, "a target")))
+
+
+_KINDS: tuple[type[Constraint], ...] = (
+    BallJointConstraint,
+    WeldJointConstraint,
+    RevoluteJointConstraint,
+    DistanceConstraint,
+)
 
 
 def of_world(world: World) -> list[Constraint]:
@@ -210,9 +267,15 @@ def _read(world: World, row: NDArray[np.float64]) -> Constraint:
     made = _KINDS[kind].__new__(_KINDS[kind])
     first = world.skeletons[skeleton1].bodynodes[body1]
     Constraint.__init__(made, first, None if body2 < 0 else world.skeletons[skeleton2].bodynodes[body2])
-    made._point, made._axis = row[6:9].copy(), row[9:12].copy()
+    made._numbers = row[6:].copy()
     made._added = world, number
     return made
+
+
+def _at(point: NDArray[np.float64]) -> NDArray[np.float64]:
+    pose = np.eye(4)
+    pose[:3, 3] = point
+    return pose
 
 
 def _vector(values: ArrayLike, what: str) -> NDArray[np.float64]:

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 from pydart2 import DestroyedError, Skeleton, World
-from pydart2.constraints import BallJointConstraint, RevoluteJointConstraint, WeldJointConstraint
+from pydart2.constraints import BallJointConstraint, DistanceConstraint, RevoluteJointConstraint, WeldJointConstraint
 
 G = 9.81
 
@@ -269,3 +269,97 @@ def test_a_share_is_a_share() -> None:
     assert world.clone().constraint_error_reduction == 0.3
     with pytest.raises(ValueError, match="from 0 to 1"):
         world.constraint_error_reduction = 1.5
+
+
+SOLVERS = ["dart", "fast", "iterative"]
+
+
+def pendulum(
+    solver: str, *, rope: bool = False, length: float | None = None
+) -> tuple[World, Skeleton, DistanceConstraint]:
+    """A ball of 2 kg, 1 m beside the point by which it hangs."""
+    world = World(0.001, up="z")
+    world.set_constraint_solver(solver)
+    world.constraint_error_reduction = 0.2
+    ball = world.add_sphere(0.1, 2.0, position=[1.0, 0.0, 2.0])
+    rod = DistanceConstraint(ball.bodynodes[0], None, [1.0, 0.0, 2.0], [0.0, 0.0, 2.0], length, rope=rope)
+    rod.add_to_world(world)
+    return world, ball, rod
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_rod_is_a_pendulum(solver: str) -> None:
+    """From the horizontal it is at the bottom with v² = 2 g l, and the rod then carries 3 m g."""
+    world, ball, rod = pendulum(solver)
+    while ball.C[0] > 0.0 and world.t < 2.0:
+        world.step()
+    assert np.linalg.norm(ball.dC) == pytest.approx(np.sqrt(2.0 * G), rel=2e-3)
+    assert_allclose(rod.force(), [0.0, 0.0, 3.0 * 2.0 * G], rtol=0.01, atol=0.3)  # it turns by 4.4 mrad a step
+    assert np.linalg.norm(ball.C - [0.0, 0.0, 2.0]) == pytest.approx(1.0, abs=2e-3)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_rope_falls_until_it_is_taut(solver: str) -> None:
+    world, ball, rope = pendulum(solver, rope=True, length=1.5)
+    world.step(300)
+    assert ball.C[2] == pytest.approx(2.0 - 0.5 * G * 0.3 * 0.301, abs=1e-9)
+    assert_allclose(rope.force(), 0.0, atol=1e-12)
+    worst = 0.0
+    for _ in range(1500):
+        world.step()
+        worst = max(worst, float(np.linalg.norm(ball.C - [0.0, 0.0, 2.0])))
+    assert worst < 1.5 + 3e-3
+    assert worst > 1.5 - 1e-3
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_rod_between_two_free_bodies(solver: str) -> None:
+    """It pushes and pulls along itself alone: momentum stays, and points off the centres turn the bodies."""
+    world = World(0.001, up="z")
+    world.set_gravity([0.0, 0.0, 0.0])
+    world.set_constraint_solver(solver)
+    one, other = (world.add_sphere(0.1, m, position=[x, 0.0, 1.0]) for m, x in ((1.0, 0.0), (3.0, 1.0)))
+    rod = DistanceConstraint(one.bodynodes[0], other.bodynodes[0], [0.1, 0.0, 1.0], [0.9, 0.0, 1.05])
+    rod.add_to_world(world)
+    one.dq = [0.0, 0.0, 0.0, 1.0, 2.0, 0.0]
+    world.step(500)
+    assert_allclose(one.dC + 3.0 * other.dC, [1.0, 2.0, 0.0], atol=1e-4)
+    points = one.bodynodes[0].to_world([0.1, 0.0, 0.0]) - other.bodynodes[0].to_world([-0.1, 0.0, 0.05])
+    assert np.linalg.norm(points) == pytest.approx(rod.length, abs=2e-3)
+    assert np.linalg.norm(other.dq[:3]) > 0.1
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_distances_in_copies(solver: str) -> None:
+    world, _, rod = pendulum(solver, rope=True, length=1.2)
+    rod.set_target([0.0, 0.1, 2.0])
+    world.step(400)
+    copies = [world.clone(), pickle.loads(pickle.dumps(world)), copy.deepcopy(world)]
+    for twin in [world, *copies]:
+        twin.step(300)
+    for twin in copies:
+        assert twin.skeletons[0].q.tobytes() == world.skeletons[0].q.tobytes()
+        (kept,) = twin.constraints
+        assert isinstance(kept, DistanceConstraint)
+        assert (kept.length, kept.rope) == (1.2, True)
+        assert_allclose(kept.points, [[1.0, 0.0, 2.0], [0.0, 0.0, 2.0]])
+
+
+def test_a_crane() -> None:
+    """The end that is fixed in the world is moved, and the load follows; without the rope it falls."""
+    world, ball, rope = pendulum("fast", rope=True)
+    ball.bodynodes[0].parent_joint.set_damping_coefficient(3, 5.0)
+    rope.set_target([1.0, 0.0, 3.5])
+    world.step(3000)
+    assert ball.C[2] == pytest.approx(2.5, abs=0.02)
+    rope.enabled = False
+    world.step(100)
+    assert ball.dC[2] < -0.5
+
+
+@pytest.mark.parametrize("length", [0.0, -1.0, np.inf, np.nan])
+def test_a_distance_that_is_none(length: float) -> None:
+    world = World(0.001)
+    body = world.add_sphere(0.1, 1.0).bodynodes[0]
+    with pytest.raises(ValueError, match="> 0 m"):
+        DistanceConstraint(body, None, [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], length)

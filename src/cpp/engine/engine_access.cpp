@@ -8,6 +8,8 @@
 #include <dart/constraint/WeldJointConstraint.hpp>
 #include <typeinfo>
 
+#include "engine/distance_constraint.hpp"
+
 namespace pydart2::engine {
 
 namespace {
@@ -145,6 +147,8 @@ void set_target(ConstraintBase& constraint, const Eigen::Isometry3d& target)
     ball->*member(BallTarget()) = target.translation();
   else if (auto* weld = dynamic_cast<Weld*>(&constraint))
     weld->*member(WeldTarget()) = target;
+  else if (auto* distance = dynamic_cast<DistanceConstraint*>(&constraint))
+    distance->set_point2(target.translation());
 }
 
 void scale_error(ConstraintBase& constraint, double factor)
@@ -153,6 +157,8 @@ void scale_error(ConstraintBase& constraint, double factor)
     ball->*member(BallViolation()) *= factor;
   else if (auto* weld = dynamic_cast<Weld*>(&constraint))
     weld->*member(WeldViolation()) *= factor;
+  else if (auto* distance = dynamic_cast<DistanceConstraint*>(&constraint))
+    distance->scale_error(factor);
 }
 
 void store_impulses(ConstraintBase& constraint, const double* impulses)
@@ -161,6 +167,8 @@ void store_impulses(ConstraintBase& constraint, const double* impulses)
     std::copy_n(impulses, 3, ball->*member(BallImpulse()));
   else if (auto* weld = dynamic_cast<Weld*>(&constraint))
     std::copy_n(impulses, 6, weld->*member(WeldImpulse()));
+  else if (auto* distance = dynamic_cast<DistanceConstraint*>(&constraint))
+    distance->store_impulse(impulses[0]);
 }
 
 Eigen::Vector6d impulse_on_first(const ConstraintBase& constraint)
@@ -169,6 +177,8 @@ Eigen::Vector6d impulse_on_first(const ConstraintBase& constraint)
     return (ball->*member(BallJacobian1())).transpose() * Eigen::Map<const Eigen::Vector3d>(ball->*member(BallImpulse()));
   if (const auto* weld = dynamic_cast<const Weld*>(&constraint))
     return (weld->*member(WeldJacobian1())).transpose() * Eigen::Map<const Eigen::Vector6d>(weld->*member(WeldImpulse()));
+  if (const auto* distance = dynamic_cast<const DistanceConstraint*>(&constraint))
+    return distance->direction1() * distance->impulse();
   return Eigen::Vector6d::Zero();
 }
 
@@ -189,6 +199,10 @@ void read_rows(const ConstraintBase& constraint, Rows& rows)
     const auto& ball = static_cast<const Ball&>(constraint);
     rows.kind = Rows::Kind::bodies;
     rows.bodies = joint_rows(ball, ball_orders, ball.*member(BallJacobian1()), ball.*member(BallJacobian2()));
+    rows.force_mixing = DynamicJointConstraint::getConstraintForceMixing();
+  } else if (type == typeid(DistanceConstraint)) {
+    rows.kind = Rows::Kind::bodies;
+    rows.bodies = static_cast<const DistanceConstraint&>(constraint).rows();
     rows.force_mixing = DynamicJointConstraint::getConstraintForceMixing();
   } else if (type == typeid(JointConstraint)) {
     const auto& limit = static_cast<const JointConstraint&>(constraint);

@@ -22,7 +22,7 @@ enum class SumOrder {
   sequence ///< One after the other: its first two rows, and a weld joint's 6x6 Jacobian.
 };
 
-/// A constraint of one or two bodies: contact, ball joint, weld joint. A missing body is null.
+/// A constraint of one or two bodies: contact, ball joint, weld joint, distance. A missing body is null.
 struct BodyRows
 {
   std::array<SumOrder, 6> orders; ///< Of each row.
@@ -57,16 +57,17 @@ const dart::collision::Contact* contact(const dart::constraint::ConstraintBase& 
 /// does; false, and nothing, for other constraints.
 bool store_force(dart::constraint::ConstraintBase& constraint, const double* impulses, double time_step);
 
-/// Where in the world a ball joint constraint without a second body holds its point, or a weld its body.
+/// Where in the world a ball joint or distance constraint without a second body holds its point, or a weld its body.
 void set_target(dart::constraint::ConstraintBase& constraint, const Eigen::Isometry3d& target);
 
-/// Scales the error that a ball or weld joint constraint has found, and is about to reduce.
+/// Scales the error that a ball or weld joint or a distance constraint has found, and is about to reduce.
 void scale_error(dart::constraint::ConstraintBase& constraint, double factor);
 
-/// Lets a ball or weld joint constraint know the impulses of its rows, as its applyImpulse() does, and does not apply them.
+/// Lets a ball or weld joint or a distance constraint know the impulses of its rows, as its applyImpulse() does, and does
+/// not apply them.
 void store_impulses(dart::constraint::ConstraintBase& constraint, const double* impulses);
 
-/// What a ball or weld joint constraint did to its first body in the last step: moment and force times the step, in the
+/// What a ball or weld joint or a distance constraint did to its first body in the last step: moment and force times the step, in the
 /// body's frame.
 Eigen::Vector6d impulse_on_first(const dart::constraint::ConstraintBase& constraint);
 

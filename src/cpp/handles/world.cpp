@@ -442,42 +442,47 @@ void WorldHandle::add_ball_joint_constraint(
     const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point)
 {
   check::finite(point, "joint position");
-  add_constraint(static_cast<int>(ConstraintRecord::Kind::ball), body1.body(), &body2.body(), point, Eigen::Vector3d::Zero());
+  Eigen::Matrix<double, 11, 1> numbers = Eigen::Matrix<double, 11, 1>::Zero();
+  numbers.head<3>() = point;
+  add_constraint(static_cast<int>(ConstraintRecord::Kind::ball), body1.body(), &body2.body(), {numbers.data(), 11});
 }
 
-int WorldHandle::add_constraint_to_world(
-    long kind, const BodyNodeHandle& body, const Eigen::Vector3d& point, const Eigen::Vector3d& axis)
+int WorldHandle::add_constraint_to_world(long kind, const BodyNodeHandle& body, const VectorIn& numbers)
 {
-  return add_constraint(kind, body.body(), nullptr, point, axis);
+  return add_constraint(kind, body.body(), nullptr, numbers);
 }
 
 int WorldHandle::add_constraint_between(
-    long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point,
-    const Eigen::Vector3d& axis)
+    long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const VectorIn& numbers)
 {
-  return add_constraint(kind, body1.body(), &body2.body(), point, axis);
+  return add_constraint(kind, body1.body(), &body2.body(), numbers);
 }
 
 int WorldHandle::add_constraint(
-    long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const Eigen::Vector3d& point,
-    const Eigen::Vector3d& axis)
+    long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const VectorIn& numbers)
 {
   auto& record = world();
-  check::finite(point, "joint position");
+  check::size(numbers.size, 11, "numbers of a constraint");
+  check::finite(numbers, "the places and lengths of a constraint");
   if (record.index_of(a.getSkeleton()) < 0 || (b && record.index_of(b->getSkeleton()) < 0))
     throw Error(Kind::value, "both bodies of a constraint must be in the world that it is added to");
   if (&a == b)
     throw Error(Kind::value, "a constraint needs two different bodies, got '" + a.getName() + "' twice");
+  const Eigen::Map<const Eigen::VectorXd> values(numbers.data, 11);
   ConstraintRecord added;
-  added.kind = static_cast<ConstraintRecord::Kind>(check::index(kind, 3, "kind of constraint"));
+  added.kind = static_cast<ConstraintRecord::Kind>(check::index(kind, ConstraintRecord::num_kinds, "kind of constraint"));
   if (added.kind == ConstraintRecord::Kind::revolute) {
-    check::direction(axis, "the axis of a constraint");
-    added.axis = axis.stableNormalized();
+    check::direction(values.segment<3>(3), "the axis of a constraint");
+    added.axis = values.segment<3>(3).stableNormalized();
   }
+  check::not_negative(values[9], "the length of a constraint");
   added.id = ++record.last_constraint;
   added.body1 = &a;
   added.body2 = b;
-  added.point = point;
+  added.point = values.head<3>();
+  added.point2 = values.segment<3>(6);
+  added.length = values[9];
+  added.rope = values[10] != 0.0;
   wake_held(record, added);
   pydart2::add(added, *record.world->getConstraintSolver());
   record.constraints.push_back(added);
@@ -489,8 +494,9 @@ void WorldHandle::constraint(long index, Output& out) const
   const auto& record = world();
   const auto& one = record.constraints[check::index(index, record.constraints.size(), "constraint")];
   const auto body = [](const dart::dynamics::BodyNode* b) { return b ? double(b->getIndexInSkeleton()) : -1.0; };
-  vector(out, 12) << double(one.id), double(one.kind), double(record.index_of(one.skeleton1)), body(one.body1),
-      one.skeleton2 ? double(record.index_of(one.skeleton2)) : -1.0, body(one.body2), one.point, one.axis;
+  vector(out, 17) << double(one.id), double(one.kind), double(record.index_of(one.skeleton1)), body(one.body1),
+      one.skeleton2 ? double(record.index_of(one.skeleton2)) : -1.0, body(one.body2), one.point, one.axis,
+      one.point2, one.length, double(one.rope);
 }
 
 ConstraintRecord& WorldHandle::constraint_of(long id) const

@@ -125,13 +125,11 @@ public:
   void add_ball_joint_constraint(const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point);
   int num_constraints() const;
 
-  /// Kind: 0 ball, at a point of the world, 1 weld, as the bodies stand, 2 revolute, about an axis through a point.
-  /// Returns the id.
+  /// Kind: 0 ball, at a point of the world, 1 weld, as the bodies stand, 2 revolute, about an axis through a point, 3
+  /// distance of two points. Numbers: point (3), axis (3), second point (3), length, whether it is a rope. Returns the id.
   int add_constraint_between(
-      long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const Eigen::Vector3d& point,
-      const Eigen::Vector3d& axis);
-  int add_constraint_to_world(
-      long kind, const BodyNodeHandle& body, const Eigen::Vector3d& point, const Eigen::Vector3d& axis);
+      long kind, const BodyNodeHandle& body1, const BodyNodeHandle& body2, const VectorIn& numbers);
+  int add_constraint_to_world(long kind, const BodyNodeHandle& body, const VectorIn& numbers);
 
   /// Of an id; a constraint that is no longer there is an error.
   bool constraint_is_enabled(long id) const;
@@ -141,7 +139,7 @@ public:
   /// Moment about the first body's origin and force on it, world axes, in the last step.
   Vector6d constraint_wrench(long id) const;
 
-  /// Id, kind, skeleton and body id of the first body, of the second (-1 for the world), point (3), axis (3).
+  /// Id, kind, skeleton and body id of the first body, of the second (-1 for the world), and its numbers.
   void constraint(long index, Output& out) const;
 
   /// False if there is none of this id.
@@ -191,9 +189,7 @@ public:
   const WorldRef& ref() const { return record_; }
 
 private:
-  int add_constraint(
-      long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const Eigen::Vector3d& point,
-      const Eigen::Vector3d& axis);
+  int add_constraint(long kind, dart::dynamics::BodyNode& a, dart::dynamics::BodyNode* b, const VectorIn& numbers);
   ConstraintRecord& constraint_of(long id) const;
   explicit WorldHandle(WorldRef record);
   WorldRecord& world() const;

@@ -4,7 +4,7 @@
 #include <dart/constraint/WeldJointConstraint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 
-#include "engine/engine_access.hpp"
+#include "engine/distance_constraint.hpp"
 
 namespace pydart2 {
 
@@ -40,6 +40,9 @@ std::vector<ConstraintBasePtr> make(const ConstraintRecord& record)
     return {weld(record)};
   case ConstraintRecord::Kind::revolute:
     return {ball(record, record.point - half_span * record.axis), ball(record, record.point + half_span * record.axis)};
+  case ConstraintRecord::Kind::distance:
+    return {std::make_shared<engine::DistanceConstraint>(
+        record.body1, record.body2, record.point, record.point2, record.length, record.rope)};
   }
   return {};
 }

@@ -11,13 +11,17 @@ namespace pydart2 {
 /// needs alive and what it takes to make it again.
 struct ConstraintRecord
 {
-  enum class Kind { ball, weld, revolute };
+  enum class Kind { ball, weld, revolute, distance };
+  static constexpr int num_kinds = 4;
 
   Kind kind = Kind::ball;
   int id = 0; ///< Of its own in the world.
   dart::dynamics::BodyNode *body1 = nullptr, *body2 = nullptr;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< Of a ball or revolute joint, world frame, when it was made.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< Of all but welds, world frame, when it was made.
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< Of a revolute joint, of length 1, world frame, when it was made.
+  Eigen::Vector3d point2 = Eigen::Vector3d::Zero(); ///< The other end of a distance, world frame, when it was made.
+  double length = 0.0;                             ///< Of a distance.
+  bool rope = false;                               ///< A distance that may be shorter.
   std::optional<Eigen::Isometry3d> target;         ///< Of one in the world, if it was moved.
   bool enabled = true;
   Eigen::VectorXd positions1, positions2; ///< Positions of the skeletons when it was made.

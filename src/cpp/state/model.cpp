@@ -202,11 +202,30 @@ void visit_kinds(Archive& archive, std::vector<ConstraintRecord>& constraints)
 {
   for (auto& record : constraints) {
     const auto kind = archive.count(static_cast<std::size_t>(record.kind));
-    if (kind > 2)
+    if (kind >= ConstraintRecord::num_kinds)
       Archive::refuse();
     record.kind = static_cast<ConstraintRecord::Kind>(kind);
     if (archive.count(record.body2 == nullptr) != 0)
       record.body2 = nullptr;
+  }
+}
+
+void visit_distances(Archive& archive, std::vector<ConstraintRecord>& constraints)
+{
+  for (auto& record : constraints) {
+    archive.vector(
+        [&] { return record.point2; },
+        [&](const Eigen::VectorXd& point) {
+          check::finite(Eigen::Vector3d(point), "the second point of a constraint");
+          record.point2 = point;
+        });
+    archive.number(
+        [&] { return record.length; },
+        [&](double length) {
+          check::not_negative(length, "the length of a constraint");
+          record.length = length;
+        });
+    record.rope = archive.count(record.rope) != 0;
   }
 }
 
@@ -268,6 +287,11 @@ void visit_constraints(Archive& archive, WorldRecord& world)
   });
   if (archive.part("constraint settings", !as_made))
     visit_settings(archive, world.constraints);
+  const bool has_distance = std::any_of(world.constraints.begin(), world.constraints.end(), [](const auto& record) {
+    return record.kind == ConstraintRecord::Kind::distance;
+  });
+  if (archive.part("distances", has_distance))
+    visit_distances(archive, world.constraints);
   if (archive.is_in())
     for (auto& record : world.constraints) {
       if (record.body2 == nullptr)
