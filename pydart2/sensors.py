@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.bodynode import BodyNode
 from pydart2.frames import Frame, SimpleFrame
+from pydart2.skeleton import Skeleton
 
 if TYPE_CHECKING:
-    from pydart2.bodynode import BodyNode
+    from pydart2.batch import Batch
+    from pydart2.collision_filter import Bodies
     from pydart2.dof import Dof
     from pydart2.joint import Joint
     from pydart2.world import World
@@ -19,7 +22,49 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-class Sensor:
+class Sampled:
+    """Something that is looked at some times in a second of a world's time.
+
+    Parameters
+    ----------
+    world
+        Whose time it is.
+    rate
+        Times in a second, > 0; between two there is the last reading. None: each time step.
+    """
+
+    def __init__(self, world: World, rate: float | None = None) -> None:
+        self._world = world
+        self.rate = rate
+        self._read_at: float | None = None
+
+    @property
+    def world(self) -> World:
+        """The world that it reads in."""
+        return self._world
+
+    @property
+    def rate(self) -> float | None:
+        """Readings in a second of the world's time, > 0; None for a new one each time step."""
+        return self._rate
+
+    @rate.setter
+    def rate(self, rate: float | None) -> None:
+        if rate is not None and not 0.0 < rate < float("inf"):
+            raise ValueError(f"the rate of a sensor is > 0 readings in a second, or None for each step; got {rate!r}")
+        self._rate = rate
+
+    def _is_due(self) -> bool:
+        """Whether it is time for another reading; if so, that has been made."""
+        period = 0.0 if self._rate is None else 1.0 / self._rate
+        now, last = self._world.t, self._read_at
+        due = last is None or now < last or now > last + period * (1.0 - 1e-9)
+        if due:
+            self._read_at = now
+        return due
+
+
+class Sensor(Sampled):
     """Something to read after a step; what a step's contacts and constraints did is in it.
 
     Parameters
@@ -48,18 +93,12 @@ class Sensor:
         rate: float | None = None,
         seed: int = 0,
     ) -> None:
-        self._world = world
+        super().__init__(world, rate)
         self._labels = tuple(labels)
         self.noise = noise
         self.bias = bias
-        self.rate = rate
         self._random = np.random.default_rng(seed)
-        self._reading: tuple[float, Array] | None = None
-
-    @property
-    def world(self) -> World:
-        """The world that it reads in."""
-        return self._world
+        self._reading: Array = np.empty(0)
 
     @property
     def labels(self) -> list[str]:
@@ -87,17 +126,6 @@ class Sensor:
     def bias(self, bias: ArrayLike) -> None:
         self._bias = self._each(bias, "bias")
 
-    @property
-    def rate(self) -> float | None:
-        """Readings in a second of the world's time, > 0; None for a new one each time step."""
-        return self._rate
-
-    @rate.setter
-    def rate(self, rate: float | None) -> None:
-        if rate is not None and not 0.0 < rate < float("inf"):
-            raise ValueError(f"the rate of a sensor is > 0 readings in a second, or None for each step; got {rate!r}")
-        self._rate = rate
-
     def _each(self, values: ArrayLike, what: str) -> Array:
         """A number for each of the sensor's."""
         numbers = np.asarray(values, dtype=float)
@@ -114,12 +142,10 @@ class Sensor:
 
     def read(self) -> Array:
         """What the sensor says, shape (n,), in the units of its class. A copy."""
-        period = 0.0 if self._rate is None else 1.0 / self._rate
-        now = self.world.t
-        if self._reading is None or now < self._reading[0] or now > self._reading[0] + period * (1.0 - 1e-9):
+        if self._is_due():
             value = self.measure() + self._bias
-            self._reading = now, value + self._noise * self._random.standard_normal(len(value))
-        return self._reading[1].copy()
+            self._reading = value + self._noise * self._random.standard_normal(len(value))
+        return self._reading.copy()
 
 
 class IMU(Sensor):
@@ -265,6 +291,70 @@ class Touch(Sensor):
         return np.array([np.einsum("ij,ij->", contacts.forces, contacts.normals)])
 
 
+class Lidar(Sensor):
+    """Distances to what rays hit first, shape (n,), m; infinite where there is nothing.
+
+    >>> lidar = Lidar(robot.body("head"), Lidar.fan(np.pi, 181), max_distance=30.0)
+
+    Rays pass through the body that it sits on, and through soft bodies; see World.raycast().
+
+    Parameters
+    ----------
+    frame
+        A body, or a SimpleFrame in one; the rays begin at its origin.
+    directions
+        Shape (n, 3), of any length, in the frame.
+    max_distance
+        What is farther away is not seen, m.
+    ignore
+        Other bodies, skeletons or their names that rays pass through, as of World.exclude_collisions().
+    """
+
+    def __init__(
+        self,
+        frame: BodyNode | SimpleFrame,
+        directions: ArrayLike,
+        *,
+        max_distance: float = np.inf,
+        ignore: Bodies = (),
+        noise: ArrayLike = 0.0,
+        bias: ArrayLike = 0.0,
+        rate: float | None = None,
+        seed: int = 0,
+    ) -> None:
+        self._body, _ = _place(frame)
+        self._frame: Frame = frame
+        self._directions = np.array(directions, dtype=float)
+        if self._directions.ndim != 2 or self._directions.shape[1] != 3 or not np.any(self._directions, axis=1).all():
+            raise ValueError(f"the directions of a lidar have the shape (n, 3), none of them 0; got {directions!r}")
+        self._max_distance = max_distance
+        self._ignore = [self._body, *([ignore] if isinstance(ignore, str | BodyNode | Skeleton) else ignore)]
+        labels = [f"{self._body.name}.range_{i}" for i in range(len(self._directions))]
+        super().__init__(self._body.skeleton.world, labels, noise=noise, bias=bias, rate=rate, seed=seed)
+
+    @staticmethod
+    def fan(angle: float, n: int) -> Array:
+        """Directions in the x-y plane from -angle / 2 to angle / 2 (rad) about x, shape (n, 3), of length 1."""
+        angles = np.linspace(-angle / 2.0, angle / 2.0, n)
+        return np.stack([np.cos(angles), np.sin(angles), np.zeros(n)], axis=1)
+
+    @property
+    def frame(self) -> Frame:
+        """Where it sits."""
+        return self._frame
+
+    @property
+    def directions(self) -> Array:
+        """Of the rays, in the frame, shape (n, 3), without unit."""
+        return self._directions.copy()
+
+    def measure(self) -> Array:
+        """What there is, without rate, noise and bias, shape (n,), m."""
+        pose = self._frame.T
+        along = self._directions @ pose[:3, :3].T
+        return self.world.raycast(pose[:3, 3], along, self._max_distance, ignore=self._ignore).distances
+
+
 class Sensors:
     """Several sensors as one array.
 
@@ -291,10 +381,38 @@ class Sensors:
         return np.concatenate([sensor.read() for sensor in self.sensors]) if self.sensors else np.empty(0)
 
 
+class BatchSensors:
+    """The same sensors in each world of a batch, as one array.
+
+    >>> sensors = BatchSensors(batch, lambda world: JointEncoder(world.skeletons[1].dofs))
+    >>> batch.step()
+    >>> observations = sensors.read()
+
+    Parameters
+    ----------
+    batch
+        Whose worlds they read in.
+    make
+        Gives the sensor or Sensors of a world.
+    """
+
+    def __init__(self, batch: Batch, make: Callable[[World], Sensor | Sensors]) -> None:
+        self._of_worlds = [make(world) for world in batch.worlds]
+
+    @property
+    def labels(self) -> list[str]:
+        """A name for each number of a world."""
+        return self._of_worlds[0].labels if self._of_worlds else []
+
+    def read(self) -> Array:
+        """The readings, a row for each of the N worlds, shape (N, n), in the units of each sensor."""
+        return np.array([sensors.read() for sensors in self._of_worlds]).reshape(len(self._of_worlds), -1)
+
+
 def _place(frame: BodyNode | SimpleFrame) -> tuple[BodyNode, Array | None]:
     """The body that carries a frame, and where the frame is in it."""
     if not isinstance(frame, SimpleFrame):
         return frame, None
     if frame.parent is None:
-        raise ValueError("an IMU sits on a body; this frame is fixed in the world")
+        raise ValueError("a sensor sits on a body; this frame is fixed in the world")
     return frame.parent, frame.relative[:3, 3]

@@ -16,11 +16,23 @@ if TYPE_CHECKING:
     from pydart2.gui import opengl as opengl
     from pydart2.gui import pyqt5 as pyqt5
     from pydart2.gui import viewer as viewer
+    from pydart2.gui.camera_sensor import CameraSensor
     from pydart2.gui.moving_cameras import between, follow, orbit
     from pydart2.gui.offscreen import OffscreenRenderer, render
     from pydart2.gui.recorder import Movie, record
 
-__all__ = ["Camera", "Movie", "OffscreenRenderer", "Trackball", "between", "follow", "orbit", "record", "render"]
+__all__ = [
+    "Camera",
+    "CameraSensor",
+    "Movie",
+    "OffscreenRenderer",
+    "Trackball",
+    "between",
+    "follow",
+    "orbit",
+    "record",
+    "render",
+]
 
 _MODULES = ("glut", "opengl", "pyqt5", "viewer")
 
@@ -28,6 +40,8 @@ _MODULES = ("glut", "opengl", "pyqt5", "viewer")
 def __getattr__(name: str) -> object:
     if name in ("OffscreenRenderer", "render"):
         return getattr(import_module("pydart2.gui.offscreen"), name)
+    if name == "CameraSensor":
+        return import_module("pydart2.gui.camera_sensor").CameraSensor
     if name in ("Movie", "record"):
         return getattr(import_module("pydart2.gui.recorder"), name)
     if name in ("between", "follow", "orbit"):

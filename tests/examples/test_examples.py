@@ -36,6 +36,7 @@ CLAIMS = {
     "ik": 1,
     "inverse_dynamics": 1,
     "inspect_skeleton": 0,
+    "lidar": 1,
     "many_worlds": 2,
     "momentum": 1,
     "move_arm": 1,

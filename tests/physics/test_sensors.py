@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from pydart2 import SimpleFrame, World
-from pydart2.sensors import IMU, ForceTorque, JointEncoder, Sensors, Touch
+from pydart2 import Batch, SimpleFrame, World
+from pydart2.sensors import IMU, BatchSensors, ForceTorque, JointEncoder, Lidar, Sensors, Touch
 
 G = 9.81
 
@@ -138,3 +138,47 @@ def test_an_encoder_reads_one_skeleton() -> None:
     one, other = (world.add_sphere(0.1, position=(x, 0, 0)) for x in (0.0, 1.0))
     with pytest.raises(ValueError, match="of one skeleton"):
         JointEncoder([one.dofs[0], other.dofs[1]])
+
+
+def test_a_lidar_in_a_corridor() -> None:
+    """Walls at x = 3 and y = 2 seen from the origin, from a frame that is turned and moves along."""
+    world = World(0.001, up="z")
+    world.set_gravity([0.0, 0.0, 0.0])
+    for place in ([3.5, 0.0, 0.0], [0.0, 2.5, 0.0]):
+        world.add_box([1.0, 9.0, 9.0] if place[0] else [9.0, 1.0, 9.0], 1.0, place, fixed=True)
+    robot = world.add_sphere(0.2, 1.0, name="robot")
+    angles = np.deg2rad([-20.0, 0.0, 20.0, 80.0])
+    directions = 5.0 * np.stack([np.cos(angles), np.sin(angles), np.zeros(4)], axis=1)
+    expected = [3 / np.cos(angles[0]), 3.0, 3 / np.cos(angles[2]), 2 / np.sin(angles[3])]
+    assert_allclose(Lidar(robot.bodynodes[0], directions).read(), expected, rtol=1e-12)
+    quarter = SimpleFrame(robot.bodynodes[0], [[0, -1, 0], [1, 0, 0], [0, 0, 1]])  # its x is the robot's y
+    assert_allclose(Lidar(quarter, [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]).read(), [2.0, 3.0], rtol=1e-12)
+    robot.q = [0.0, 0.0, 0.0, 0.5, 0.0, 0.0]
+    ahead = Lidar(robot.bodynodes[0], [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]], max_distance=9.0)
+    assert_allclose(ahead.read(), [2.5, np.inf])
+    assert [label.split(".")[1] for label in ahead.labels] == ["range_0", "range_1"]
+
+
+def test_a_fan_of_rays() -> None:
+    rays = Lidar.fan(np.pi, 5)
+    assert_allclose(np.arctan2(rays[:, 1], rays[:, 0]), np.linspace(-np.pi / 2, np.pi / 2, 5))
+    world = World(0.001)
+    body = world.add_sphere(0.1).bodynodes[0]
+    with pytest.raises(ValueError, match="shape \\(n, 3\\), none of them 0"):
+        Lidar(body, [[0.0, 0.0, 0.0]])
+    with pytest.raises(ValueError, match="a sensor sits on a body"):
+        Lidar(SimpleFrame(None), rays)
+
+
+def test_sensors_of_a_batch() -> None:
+    world = World(0.001)
+    world.set_gravity([0.0, -G, 0.0])
+    world.add_ground()
+    world.add_sphere(0.1, position=(0, 5.0, 0), name="ball")
+    batch = Batch(world, 3)
+    batch.q = batch.q + np.array([[0.0, 0, 0, 0, i, 0] for i in range(3)])
+    sensors = BatchSensors(
+        batch, lambda w: Sensors([Lidar(w["ball"].bodynodes[0], [[0.0, -1.0, 0.0]]), JointEncoder(w["ball"].dofs[4:5])])
+    )
+    assert_allclose(sensors.read(), [[5.0 + i, 5.0 + i] for i in range(3)])
+    assert len(sensors.labels) == 2
