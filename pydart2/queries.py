@@ -196,7 +196,7 @@ class WorldQueries:
             rows = np.array([[np.inf, *[np.nan] * 9, *[-1.0] * 6]])
         return self._distances(rows[0])
 
-    def distances(self, a: Bodies, b: Bodies, max_distance: float) -> Distances:
+    def distances_within(self, a: Bodies, b: Bodies, max_distance: float) -> Distances:
         """All pairs of shapes of two sets of bodies that are no farther apart than `max_distance`, m.
 
         The nearest first; else as distance().

@@ -139,7 +139,7 @@ def test_the_nearest_of_many_and_all_within_reach() -> None:
     near = world.distance("b0", boxes)
     assert near.distances == pytest.approx(0.2)
     assert near.pair() == (boxes[0].bodynodes[0], boxes[1].bodynodes[0])
-    within = world.distances("b0", boxes, 0.6)
+    within = world.distances_within("b0", boxes, 0.6)
     assert_allclose(within.distances, [0.2, 0.5])
     assert [within.pair(i)[1].skel.name for i in range(len(within))] == ["b1", "b2"]  # type: ignore[union-attr]
     far = world.distance("b0", "b5", max_distance=1.0)
