@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.bodynode import BodyNode
-
-if TYPE_CHECKING:
-    from pydart2.skeleton import Skeleton
 
 
 class SoftBodyNode(BodyNode):
@@ -19,8 +14,9 @@ class SoftBodyNode(BodyNode):
     The points are not among the skeleton's dofs; M, c and the Jacobians are those of the rigid core.
     """
 
-    def __init__(self, _skel: Skeleton, _id: int) -> None:
-        super().__init__(_skel, _id)
+    def build(self) -> None:
+        """Link to the other parts of the skeleton."""
+        super().build()
         self._soft = self._handle.soft_body()
 
     def num_points(self) -> int:

@@ -12,7 +12,7 @@ from pydart2.building.poses import pose
 from pydart2.shapenode import ShapeNode
 
 if TYPE_CHECKING:
-    from pydart2._native import BodyNodeHandle
+    from pydart2._native import BodyNodeHandle, ShapeNodeHandle
     from pydart2.marker import Marker
     from pydart2.skeleton import Skeleton
 
@@ -49,6 +49,34 @@ class ShapeOptions(TypedDict, total=False):
     restitution: float
     visible: bool
     collides: bool
+
+
+class BodyOptions(TypedDict, total=False):
+    """What all single bodies have.
+
+    Attributes
+    ----------
+    orientation
+        A quaternion [w, x, y, z] or a (3, 3) matrix.
+    density
+        kg/m³, where no mass is given; by default 1000.
+    name
+        Of the skeleton and the body; a number is added if it is taken.
+    color
+        RGB or RGBA, 0 to 1.
+    friction, restitution
+        Coefficients of contacts; by default the engine's, 1 and 0.
+    fixed
+        Whether it is welded to the world.
+    """
+
+    orientation: ArrayLike
+    density: float
+    name: str
+    color: ArrayLike
+    friction: float
+    restitution: float
+    fixed: bool
 
 
 class BodyBuilding:
@@ -139,6 +167,15 @@ def attach(body: BodyNodeHandle, solid: solids.Solid, options: ShapeOptions) -> 
     index = _new_node(body, solid, options)
     node = body.shapenode(index)
     node.set_relative_transform(transform)
+    paint(node, options)
+    if mass != 0.0:
+        turn = transform[:3, :3]
+        body.add_mass(mass, transform[:3, 3] + turn @ solid.com, mass * (turn @ solid.inertia @ turn.T))
+    return index
+
+
+def paint(node: ShapeNodeHandle, options: ShapeOptions | BodyOptions) -> None:
+    """Give a shape of the engine its colour and coefficients, where there are any."""
     if "color" in options:
         rgba = np.ones(4)
         color = np.asarray(options["color"], dtype=float)
@@ -148,10 +185,6 @@ def attach(body: BodyNodeHandle, solid: solids.Solid, options: ShapeOptions) -> 
         node.set_friction_coeff(options["friction"])
     if "restitution" in options:
         node.set_restitution_coeff(options["restitution"])
-    if mass != 0.0:
-        turn = transform[:3, :3]
-        body.add_mass(mass, transform[:3, 3] + turn @ solid.com, mass * (turn @ solid.inertia @ turn.T))
-    return index
 
 
 def _new_node(body: BodyNodeHandle, solid: solids.Solid, options: ShapeOptions) -> int:

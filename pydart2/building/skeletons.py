@@ -12,6 +12,7 @@ from pydart2.building.poses import pose
 if TYPE_CHECKING:
     from pydart2._native import SkeletonHandle
     from pydart2.bodynode import BodyNode
+    from pydart2.building.skins import Skin
     from pydart2.joint import Joint
 
 #: What add_body() calls a joint → the engine's name.
@@ -70,6 +71,7 @@ class SkeletonBuilding:
         mass: float = 0.0,
         com: ArrayLike = (0.0, 0.0, 0.0),
         inertia: ArrayLike | None = None,
+        skin: Skin | None = None,
     ) -> BodyNode:
         """Add a body, and the joint to its parent.
 
@@ -105,6 +107,8 @@ class SkeletonBuilding:
         mass, com, inertia
             Mass, kg, centre of mass in the body, shape (3,), m, and moment of inertia about it, shape (3, 3), kg m²;
             shapes that are added add theirs.
+        skin
+            Makes it a SoftBodyNode; its points have masses of their own.
 
         Raises
         ------
@@ -114,11 +118,19 @@ class SkeletonBuilding:
         above = -1 if parent is None else self._parent_index(parent)
         kind = joint or ("free" if above < 0 else "weld")
         _check_limits(name, limits)
-        index = self._handle.add_body(
-            above, name, _engine_name(kind), joint_name or f"{name}_joint", _axes_of(kind, axis)
-        )
+        hangs = above, name, _engine_name(kind), joint_name or f"{name}_joint", _axes_of(kind, axis)
+        if skin is None:
+            index = self._handle.add_body(*hangs)
+        else:
+            edges, triangles = skin.edges.astype(float), skin.triangles.astype(float)
+            index = self._handle.add_soft_body(*hangs, skin.points, skin.masses, edges, triangles)
         self.build()
         body = self.bodynodes[index]
+        if skin is not None:
+            soft = body._handle.soft_body()
+            soft.set_vertex_stiffness(skin.stiffness)
+            soft.set_edge_stiffness(skin.edge_stiffness)
+            soft.set_damping_coefficient(skin.damping)
         in_body = pose(joint_position, joint_orientation)
         body.parent_joint._handle.set_transform_from_child_body_node(in_body)
         body.parent_joint._handle.place(pose(position, orientation))

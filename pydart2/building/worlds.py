@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypedDict, Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.building import solids
-from pydart2.building.bodies import DENSITY, ShapeOptions, attach
+from pydart2.building.bodies import DENSITY, BodyOptions, ShapeOptions, attach
 from pydart2.building.poses import between, pose
+from pydart2.building.soft_bodies import SoftBuilding
 
 if TYPE_CHECKING:
     from pydart2._native import WorldHandle
@@ -18,35 +19,7 @@ if TYPE_CHECKING:
 _NO_AXES = np.zeros((0, 3))
 
 
-class BodyOptions(TypedDict, total=False):
-    """What all single bodies have.
-
-    Attributes
-    ----------
-    orientation
-        A quaternion [w, x, y, z] or a (3, 3) matrix.
-    density
-        kg/m³, where no mass is given; by default 1000.
-    name
-        Of the skeleton and the body; a number is added if it is taken.
-    color
-        RGB or RGBA, 0 to 1.
-    friction, restitution
-        Coefficients of contacts; by default the engine's, 1 and 0.
-    fixed
-        Whether it is welded to the world.
-    """
-
-    orientation: ArrayLike
-    density: float
-    name: str
-    color: ArrayLike
-    friction: float
-    restitution: float
-    fixed: bool
-
-
-class WorldBuilding:
+class WorldBuilding(SoftBuilding):
     """The part of World that adds to it without files."""
 
     _handle: WorldHandle

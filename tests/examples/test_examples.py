@@ -46,6 +46,7 @@ CLAIMS = {
     "shapes": 8,
     "simple_tracking": 1,
     "soft_bodies": 2,
+    "soft_cushion": 2,
     "three_thousand_shapes": 4,
     "view_skeleton": 0,
 }

@@ -1,6 +1,7 @@
 // What a BodyNodeHandle adds to a body: shapes, markers, mass.
 #include <cmath>
 #include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/dynamics/SoftMeshShape.hpp>
 
 #include "base/checks.hpp"
 #include "collision/detector.hpp"
@@ -94,6 +95,8 @@ void BodyNodeHandle::remove_shape(long index)
 {
   auto& body = *body_;
   const auto i = check::index(index, body.getNumShapeNodes(), "shape node");
+  if (body.getShapeNodes()[i]->getShape()->is<dart::dynamics::SoftMeshShape>())
+    throw Error(Kind::value, "the skin of soft body '" + body.getName() + "' goes with the body: skel.remove_body()");
   mark_built(*body_.world, *body_.skeleton);
   const auto lock = lock_ode();
   auto& solver = *body_.world->world->getConstraintSolver();

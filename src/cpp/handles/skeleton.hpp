@@ -17,6 +17,7 @@
 #include "handles/marker.hpp"
 #include "handles/part.hpp"
 #include "handles/targets.hpp"
+#include "loading/built_skin.hpp"
 #include "state/dof_state.hpp"
 
 namespace pydart2 {
@@ -115,6 +116,18 @@ public:
   /// axes are rows, as many as the type has. Every handle into this skeleton must be taken again.
   int add_body(long parent, const std::string& name, const std::string& joint_type, const std::string& joint_name, const MatrixIn& axes);
 
+  /// The same with a skin of point masses, whose shape is the body's first. Edges and faces are indices of points.
+  int add_soft_body(
+      long parent,
+      const std::string& name,
+      const std::string& joint_type,
+      const std::string& joint_name,
+      const MatrixIn& axes,
+      const MatrixIn& points,
+      const VectorIn& masses,
+      const MatrixIn& edges,
+      const MatrixIn& faces);
+
   /// Takes a body away, with all that hangs from it. Every handle into this skeleton must be taken again.
   void remove_body(long index);
 
@@ -131,6 +144,13 @@ private:
   void check_root_can_change(const char* what) const;
   void check_tree_can_change(const char* what) const;
   void tree_changed(RootChange change);
+  int add_new(
+      long parent,
+      const std::string& name,
+      const std::string& joint_type,
+      const std::string& joint_name,
+      const MatrixIn& axes,
+      const built::Skin* skin);
   void check_new_name(const std::string& name, bool taken, const char* what) const;
 
   /// Places of the engine's numbers, or of NaN after a blow-up that was not raised.

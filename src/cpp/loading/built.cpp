@@ -1,5 +1,6 @@
 #include "loading/built.hpp"
 
+#include <algorithm>
 #include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/EulerJoint.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
@@ -8,7 +9,7 @@
 #include <dart/dynamics/PrismaticJoint.hpp>
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/ScrewJoint.hpp>
-#include <dart/dynamics/SoftBodyNode.hpp>
+#include <dart/dynamics/SoftMeshShape.hpp>
 #include <dart/dynamics/TranslationalJoint.hpp>
 #include <dart/dynamics/TranslationalJoint2D.hpp>
 #include <dart/dynamics/UniversalJoint.hpp>
@@ -30,8 +31,13 @@ namespace {
 using Axes = std::vector<Eigen::Vector3d>;
 
 template <class Joint>
-BodyNode& add(Skeleton& skeleton, BodyNode* parent, const typename Joint::Properties& properties)
+BodyNode& add(Skeleton& skeleton, BodyNode* parent, const typename Joint::Properties& properties, const Skin* skin)
 {
+  if (skin != nullptr)
+    return *skeleton
+                .createJointAndBodyNodePair<Joint, SoftBodyNode>(
+                    parent, properties, SoftBodyNode::Properties(BodyNode::Properties(), *skin))
+                .second;
   return *skeleton.createJointAndBodyNodePair<Joint>(parent, properties).second;
 }
 
@@ -48,38 +54,38 @@ typename Joint::Properties named(const NewJoint& joint, std::size_t num_axes)
 }
 
 template <class Joint>
-BodyNode& add_plain(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint)
+BodyNode& add_plain(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint, const Skin* skin)
 {
-  return add<Joint>(skeleton, parent, named<Joint>(joint, 0));
+  return add<Joint>(skeleton, parent, named<Joint>(joint, 0), skin);
 }
 
 template <class Joint>
-BodyNode& add_axis(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint)
+BodyNode& add_axis(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint, const Skin* skin)
 {
   auto properties = named<Joint>(joint, 1);
   properties.mAxis = joint.axes[0].normalized();
-  return add<Joint>(skeleton, parent, properties);
+  return add<Joint>(skeleton, parent, properties, skin);
 }
 
-BodyNode& add_universal(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint)
+BodyNode& add_universal(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint, const Skin* skin)
 {
   auto properties = named<UniversalJoint>(joint, 2);
   properties.mAxis = {joint.axes[0].normalized(), joint.axes[1].normalized()};
-  return add<UniversalJoint>(skeleton, parent, properties);
+  return add<UniversalJoint>(skeleton, parent, properties, skin);
 }
 
 template <class Joint>
-BodyNode& add_plane(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint)
+BodyNode& add_plane(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint, const Skin* skin)
 {
   auto properties = named<Joint>(joint, 2);
   properties.setArbitraryPlane(joint.axes[0], joint.axes[1]);
-  return add<Joint>(skeleton, parent, properties);
+  return add<Joint>(skeleton, parent, properties, skin);
 }
 
 constexpr struct
 {
   const char* type;
-  BodyNode& (*add)(Skeleton&, BodyNode*, const NewJoint&);
+  BodyNode& (*add)(Skeleton&, BodyNode*, const NewJoint&, const Skin*);
 } kinds[] = {
     {"BallJoint", add_plain<BallJoint>},
     {"EulerJoint", add_plain<EulerJoint>},
@@ -134,12 +140,15 @@ NewJoint read_joint(std::istream& in)
 
 void write_body(std::ostream& out, const BodyNode& body)
 {
-  if (body.asSoftBodyNode() != nullptr)
-    throw Error(Kind::value, "body '" + body.getName() + "' is soft; a skeleton with soft bodies cannot be changed");
   const auto* parent = body.getParentBodyNode();
   out << '\n' << std::quoted(body.getName()) << ' ' << (parent == nullptr ? -1 : long(parent->getIndexInSkeleton())) << ' ';
   write_joint(out, *body.getParentJoint());
-  const auto shapes = body.getShapeNodes();
+  write_skin(out, body.asSoftBodyNode());
+  if (body.asSoftBodyNode() != nullptr)
+    out << ' ' << std::quoted(body.getShapeNode(0)->getName());
+  auto shapes = body.getShapeNodes();
+  const auto is_skin = [](const ShapeNode* node) { return node->getShape()->is<SoftMeshShape>(); };
+  shapes.erase(std::remove_if(shapes.begin(), shapes.end(), is_skin), shapes.end()); // comes with the body
   out << ' ' << shapes.size();
   for (const auto* shape : shapes)
     write_shape(out, *shape);
@@ -151,11 +160,18 @@ void read_body(std::istream& in, Skeleton& skeleton)
   long parent = -1;
   in >> std::quoted(name) >> parent;
   const auto joint = read_joint(in);
+  const auto skin = read_skin(in);
+  std::string skin_name;
+  if (!skin.mPointProps.empty())
+    in >> std::quoted(skin_name);
   std::size_t num_shapes = 0;
   in >> num_shapes;
   if (!in || parent >= static_cast<long>(skeleton.getNumBodyNodes()))
     return;
-  auto& body = add_body(skeleton, parent < 0 ? nullptr : skeleton.getBodyNode(static_cast<std::size_t>(parent)), name, joint);
+  auto* above = parent < 0 ? nullptr : skeleton.getBodyNode(static_cast<std::size_t>(parent));
+  auto& body = add_body(skeleton, above, name, joint, skin.mPointProps.empty() ? nullptr : &skin);
+  if (!skin_name.empty())
+    body.getShapeNode(0)->setName(skin_name);
   for (std::size_t i = 0; i < num_shapes && in; ++i)
     read_shape(in, body);
 }
@@ -196,12 +212,15 @@ SkeletonPtr skeleton_of(const std::string& structure)
   return skeleton;
 }
 
-BodyNode& add_body(Skeleton& skeleton, BodyNode* parent, const std::string& name, const NewJoint& joint)
+BodyNode& add_body(
+    Skeleton& skeleton, BodyNode* parent, const std::string& name, const NewJoint& joint, const Skin* skin)
 {
   for (const auto& kind : kinds)
     if (joint.type == kind.type) {
-      auto& body = kind.add(skeleton, parent, joint);
+      auto& body = kind.add(skeleton, parent, joint, skin);
       body.setName(name);
+      if (skin != nullptr)
+        body.getShapeNode(0)->setName(name + "_skin");
       const messages::Ignoring ignoring; // those about bodies without mass
       body.setInertia(Inertia(0.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()));
       return body;

@@ -4,12 +4,13 @@
 #include <string>
 
 #include "base/arrays.hpp"
+#include "loading/built_skin.hpp"
 
 /// Skeletons that are built in code, and those that a user has given other bodies or shapes than their file.
 namespace pydart2::built {
 
 /// The bodies, joints, shapes and markers, without the numbers that visit_model() brings: a text that skeleton_of()
-/// makes them of again. ValueError for what has no such text, as soft bodies.
+/// makes them of again. ValueError for what has no such text.
 std::string structure_of(const dart::dynamics::Skeleton& skeleton);
 
 dart::dynamics::SkeletonPtr skeleton_of(const std::string& structure);
@@ -23,9 +24,14 @@ struct NewJoint
   std::vector<Eigen::Vector3d> axes;
 };
 
-/// A body without mass; its parent is null for the world. ValueError for an unknown type or a wrong number of axes.
+/// A body without mass, and a soft one if there is a skin, whose shape then is its first; the parent is null for the
+/// world. ValueError for an unknown type or a wrong number of axes.
 dart::dynamics::BodyNode& add_body(
-    dart::dynamics::Skeleton& skeleton, dart::dynamics::BodyNode* parent, const std::string& name, const NewJoint& joint);
+    dart::dynamics::Skeleton& skeleton,
+    dart::dynamics::BodyNode* parent,
+    const std::string& name,
+    const NewJoint& joint,
+    const Skin* skin = nullptr);
 
 /// A shape of a type with its sizes: box, ellipsoid, pyramid three; cylinder, capsule, cone radius and height; sphere
 /// one; plane normal and offset; hull of spheres four a sphere. Null for other types.
