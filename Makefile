@@ -15,7 +15,7 @@ FUZZ_LOADS ?= 20000
 FUZZ_CALLS ?= 1000000
 FUZZ_SECONDS ?= 300
 
-.PHONY: demo test docs test-debian13 test-packaging test-third-party test-viewer test-solver fuzz soak sanitize coverage \
+.PHONY: demo test docs test-debian13 test-packaging test-third-party test-viewer test-solver features fuzz soak sanitize coverage \
   bench wheel engine lint setup clean
 
 demo: setup
@@ -78,6 +78,13 @@ test-third-party: setup
 	$(VENV)/bin/pip install --quiet pin example-robot-data
 	$(VENV)/bin/python tests/models/what_loads.py build/third-party >docs/what-loads.md
 	$(VENV)/bin/python -m pytest -m third_party
+
+# The others' packages are big, so they have a folder of their own.
+features: setup
+	$(PYTHON) -m venv build/features
+	build/features/bin/pip install --quiet dartpy mujoco pin drake pybullet
+	$(VENV)/bin/python tools/probe_features.py build/features/bin/python >build/features.md
+	mv build/features.md docs/features.md
 
 fuzz: setup
 	$(VENV)/bin/python tests/crash/fuzz_models.py $(FUZZ_MODELS)
