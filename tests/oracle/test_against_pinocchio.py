@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from pydart2 import Skeleton, World
+from pydart2.sensors import IMU, ForceTorque
 
 pytestmark = pytest.mark.third_party
 Array = NDArray[np.float64]
@@ -169,6 +170,34 @@ def test_jacobians(pair: Pair) -> None:
         close(body.T, data.oMf[frame].homogeneous)
         J = np.array(pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED))
         close(body.world_jacobian(), pair.columns(np.vstack([J[3:], J[:3]])))
+
+
+def test_accelerometers_and_gyroscopes(pair: Pair) -> None:
+    """On each link, in its axes: R.T (a - g), and the angular velocity."""
+    pin, skel, model, data = pair.pin, pair.skel, pair.model, pair.data
+    skel.ddq = pair.ddq
+    pin.forwardKinematics(model, data, pair.q, pair.v, pair.a)
+    pin.updateFramePlacements(model, data)
+    for body in skel.bodynodes:
+        frame = model.getFrameId(body.name, pin.FrameType.BODY)
+        a = pin.getFrameClassicalAcceleration(model, data, frame, pin.LOCAL).linear
+        gyroscope = pin.getFrameVelocity(model, data, frame, pin.LOCAL).angular
+        close(IMU(body).read(), np.concatenate([a - data.oMf[frame].rotation.T @ G, gyroscope]))
+
+
+def test_force_sensors(pair: Pair) -> None:
+    """In each joint that moves, after a step from a random state; Newton and Euler say what it carried."""
+    pin, skel, model, data = pair.pin, pair.skel, pair.model, pair.data
+    for dof in skel.dofs:  # those of a step are implicit
+        dof.set_damping_coefficient(0.0)
+        dof.set_coulomb_friction(0.0)
+    ddq = skel.forward_dynamics(np.zeros(skel.ndofs))  # after the step a free joint's are in the axes of its new pose
+    skel.world.step()
+    pin.rnea(model, data, pair.q, pair.v, pair.theirs(ddq))
+    for joint in skel.joints:
+        if joint.num_dofs() > 0 and model.existJointName(joint.name):
+            carried = data.f[model.getJointId(joint.name)]
+            close(ForceTorque(joint).read(), np.concatenate([carried.angular, carried.linear]))
 
 
 def airo_models() -> Path:
