@@ -23,6 +23,7 @@ OPTIONS = {"view_skeleton": [ATLAS], "inspect_skeleton": [ATLAS]}
 
 # How many things each finds true of itself, and lines that the original's documentation shows.
 CLAIMS = {
+    "balance": 1,
     "biped_jump": 2,
     "biped_stand": 3,
     "chain": 1,
