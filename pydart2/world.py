@@ -106,7 +106,8 @@ class World(WorldBuilding, Scenes, SavedWorld, WorldQueries, WorldFilter, WorldS
     xmlstr
         Whether `skel_path` is the XML itself, however it begins.
     packages, missing_meshes, safe, reader, massless, engine_defaults, strict
-        As in `add_skeleton`.
+        As in `add_skeleton`. With engine_defaults collision detectors also have the engine's own shapes only: to FCL
+        a capsule is a ball of 5 cm, and so on.
     up
         "x", "y" or "z": which way is up, and gravity along the other; without it as the original's worlds, y-up. A file
         with a world has its own.
@@ -176,6 +177,8 @@ class World(WorldBuilding, Scenes, SavedWorld, WorldQueries, WorldFilter, WorldS
         self._stand(up, own_gravity=model is not None and model.has_world)
         if model is not None and not model.has_world:
             model.add_to(self._handle)
+        if engine_defaults:
+            self._handle.use_engine_shapes()
         self._begin()
         for i in range(self._handle.num_skeletons()):
             self.add_skeleton_from_id(i)._z_up = model is not None and is_z_up(model)

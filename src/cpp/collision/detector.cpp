@@ -1,9 +1,7 @@
 #include "collision/detector.hpp"
 
-#include <dart/collision/bullet/BulletCollisionDetector.hpp>
-#include <dart/collision/dart/DARTCollisionDetector.hpp>
-
 #include "base/errors.hpp"
+#include "collision/completed_detectors.hpp"
 #include "collision/fcl_detector.hpp"
 #include "collision/native_detector.hpp"
 #include "collision/ode_detector.hpp"
@@ -24,11 +22,11 @@ CollisionDetectorPtr make_detector(const std::string& name)
 {
   const auto lock = lock_ode();
   if (name == "dart")
-    return DARTCollisionDetector::create();
+    return DartDetector::create();
   if (name == "fcl")
     return FclDetector::create();
   if (name == "bullet")
-    return BulletCollisionDetector::create();
+    return BulletDetector::create();
   if (name == "ode")
     return OdeDetector::create();
   if (name == "native")
@@ -41,6 +39,9 @@ void use_detector(ConstraintSolver& solver, const CollisionDetectorPtr& detector
   // Not by setCollisionDetector(): shapes that change would collide as before, as its group does not follow skeletons.
   const auto lock = lock_ode();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
+  const auto* before = dynamic_cast<const Completed*>(SolverMembers::detector_of(solver).get());
+  if (auto* completed = dynamic_cast<Completed*>(detector.get()); completed != nullptr && before != nullptr)
+    completed->missing.engine_shapes = before->missing.engine_shapes;
   auto& group = SolverMembers::group_of(solver);
   group = detector->createCollisionGroupAsSharedPtr();
   SolverMembers::detector_of(solver) = detector;
@@ -77,11 +78,28 @@ void renew_detector(ConstraintSolver& solver)
   }
 }
 
+bool has_engine_shapes(const ConstraintSolver& solver)
+{
+  const auto* completed = dynamic_cast<const Completed*>(solver.getCollisionDetector().get());
+  return completed != nullptr && completed->missing.engine_shapes;
+}
+
+void use_engine_shapes(ConstraintSolver& solver)
+{
+  const auto detector = solver.getCollisionDetector();
+  if (auto* completed = dynamic_cast<Completed*>(detector.get())) {
+    completed->missing.engine_shapes = true;
+    use_detector(solver, detector); // the shapes are made anew
+  }
+}
+
 void visit_detector(Archive& archive, ConstraintSolver& solver)
 {
   archive.text(
       [&] { return solver.getCollisionDetector()->getType(); },
       [&](const std::string& name) { use_detector(solver, make_detector(name)); });
+  if (archive.part("engine's shapes", has_engine_shapes(solver)))
+    use_engine_shapes(solver);
   const auto fcl = std::dynamic_pointer_cast<FCLCollisionDetector>(solver.getCollisionDetector());
   if (!fcl)
     return;

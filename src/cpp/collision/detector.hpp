@@ -33,6 +33,10 @@ void use_detector(dart::constraint::ConstraintSolver& solver, const dart::collis
 /// Lets a world that the engine has made find contacts with one of make_detector(), of the same kind.
 void replace_detector(dart::constraint::ConstraintSolver& solver);
 
+/// Lets a solver's detector take shapes that it does not have as the engine does, instead of asking the native one.
+void use_engine_shapes(dart::constraint::ConstraintSolver& solver);
+bool has_engine_shapes(const dart::constraint::ConstraintSolver& solver);
+
 /// The same detector without memory of the steps before.
 void renew_detector(dart::constraint::ConstraintSolver& solver);
 

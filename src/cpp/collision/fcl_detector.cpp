@@ -208,7 +208,23 @@ public:
   }
 };
 
+bool fcl_does(ShapeKind a, ShapeKind b)
+{
+  const auto misses = [](ShapeKind kind) {
+    return kind == ShapeKind::capsule || kind == ShapeKind::hull || kind == ShapeKind::plane || kind == ShapeKind::heightmap;
+  };
+  return !misses(a) && !misses(b);
+}
+
 } // namespace
+
+FclDetector::FclDetector() : Completed(fcl_does) {}
+
+bool FclDetector::collide(CollisionGroup* group, const CollisionOption& option, CollisionResult* result)
+{
+  return missing.collide(
+      *this, *group, option, result, [&](const auto& part) { return FCLCollisionDetector::collide(group, part, result); });
+}
 
 std::shared_ptr<FclDetector> FclDetector::create()
 {
@@ -217,7 +233,9 @@ std::shared_ptr<FclDetector> FclDetector::create()
 
 std::shared_ptr<CollisionDetector> FclDetector::cloneWithoutCollisionObjects() const
 {
-  return create();
+  const auto made = create();
+  made->missing.engine_shapes = missing.engine_shapes;
+  return made;
 }
 
 std::unique_ptr<CollisionObject> FclDetector::createCollisionObject(const ShapeFrame* frame)

@@ -2,18 +2,25 @@
 
 #include <dart/collision/fcl/FCLCollisionDetector.hpp>
 
+#include "collision/missing_pairs.hpp"
+
 namespace pydart2 {
 
-/// The engine's detector with FCL, but for three things. Equal shapes of all worlds share the tree of their triangles,
+/// The engine's detector with FCL, but for four things. Equal shapes of all worlds share the tree of their triangles,
 /// which is most of what a robot takes in memory. A shape that has changed keeps its body: the engine's own refresh
 /// forgets to say whose shape it is, and the next contact reads memory that was never set. And cones and pyramids
-/// are where they belong: the engine makes their triangles at a pose that was never set.
-class FclDetector : public dart::collision::FCLCollisionDetector
+/// are where they belong: the engine makes their triangles at a pose that was never set. And it is completed.
+class FclDetector : public dart::collision::FCLCollisionDetector, public Completed
 {
 public:
   static std::shared_ptr<FclDetector> create();
 
   std::shared_ptr<dart::collision::CollisionDetector> cloneWithoutCollisionObjects() const override;
+
+  using FCLCollisionDetector::collide;
+  bool collide(
+      dart::collision::CollisionGroup* group, const dart::collision::CollisionOption& option,
+      dart::collision::CollisionResult* result) override;
 
 protected:
   std::unique_ptr<dart::collision::CollisionObject> createCollisionObject(
@@ -21,7 +28,7 @@ protected:
   void refreshCollisionObject(dart::collision::CollisionObject* object) override;
 
 private:
-  FclDetector() = default;
+  FclDetector();
 
   std::shared_ptr<dart::collision::fcl::CollisionGeometry> geometry(const dart::dynamics::ConstShapePtr& shape);
 };

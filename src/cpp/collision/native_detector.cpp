@@ -11,8 +11,6 @@ namespace pydart2 {
 using namespace dart::collision;
 using namespace dart::dynamics;
 
-namespace {
-
 bool report(const std::vector<native::Touch>& touches, const CollisionOption& option, CollisionResult* result)
 {
   if (result == nullptr)
@@ -30,6 +28,8 @@ bool report(const std::vector<native::Touch>& touches, const CollisionOption& op
   }
   return !touches.empty();
 }
+
+namespace {
 
 double no_distance()
 {

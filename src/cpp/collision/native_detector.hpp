@@ -8,6 +8,11 @@
 
 namespace pydart2 {
 
+/// Adds contact points to a result, no more than an option has; whether there are any.
+bool report(
+    const std::vector<native::Touch>& touches, const dart::collision::CollisionOption& option,
+    dart::collision::CollisionResult* result);
+
 /// The package's own detector: exact contact points of convex shapes and of meshes of triangles, made afresh in each step
 /// and in an order that only the model settles. It knows nothing of soft bodies.
 class NativeDetector : public dart::collision::CollisionDetector

@@ -1,7 +1,10 @@
 #include "collision/ode_detector.hpp"
 
+#include <assimp/scene.h>
 #include <dart/collision/ode/OdeCollisionObject.hpp>
+#include <dart/dynamics/MeshShape.hpp>
 #include <new>
+#include <utility>
 
 #include "engine/ode_space.hpp"
 
@@ -18,9 +21,45 @@ struct Object final : OdeCollisionObject
 };
 static_assert(sizeof(Object) == sizeof(OdeCollisionObject));
 
+/// The engine reads the normals of a mesh for ODE, and dies where there are none. While one of these is alive there are.
+class LentNormals
+{
+public:
+  explicit LentNormals(const dart::dynamics::ShapeFrame& frame)
+  {
+    const auto* shape = dynamic_cast<const dart::dynamics::MeshShape*>(frame.getShape().get());
+    const aiScene* scene = shape == nullptr ? nullptr : shape->getMesh();
+    for (unsigned i = 0; scene != nullptr && i < scene->mNumMeshes; ++i)
+      if (auto* mesh = scene->mMeshes[i]; mesh->mNormals == nullptr) {
+        mesh->mNormals = new aiVector3D[mesh->mNumVertices];
+        lent_.push_back(mesh);
+      }
+  }
+
+  ~LentNormals()
+  {
+    for (auto* mesh : lent_)
+      delete[] std::exchange(mesh->mNormals, nullptr);
+  }
+
+  LentNormals(const LentNormals&) = delete;
+  LentNormals& operator=(const LentNormals&) = delete;
+
+private:
+  std::vector<aiMesh*> lent_;
+};
+
+bool ode_does(ShapeKind a, ShapeKind b)
+{
+  const auto misses = [](ShapeKind kind) {
+    return kind == ShapeKind::ellipsoid || kind == ShapeKind::cone || kind == ShapeKind::pyramid || kind == ShapeKind::hull;
+  };
+  return !misses(a) && !misses(b);
+}
+
 } // namespace
 
-OdeDetector::OdeDetector()
+OdeDetector::OdeDetector() : Completed(ode_does)
 {
   make_ode_throw();
 }
@@ -32,13 +71,17 @@ std::shared_ptr<OdeDetector> OdeDetector::create()
 
 std::shared_ptr<CollisionDetector> OdeDetector::cloneWithoutCollisionObjects() const
 {
-  return create();
+  const auto made = create();
+  made->missing.engine_shapes = missing.engine_shapes;
+  return made;
 }
 
 bool OdeDetector::collide(CollisionGroup* group, const CollisionOption& option, CollisionResult* result)
 {
   try {
-    return OdeCollisionDetector::collide(group, option, result);
+    return missing.collide(*this, *group, option, result, [&](const auto& part) {
+      return OdeCollisionDetector::collide(group, part, result);
+    });
   } catch (...) {
     unlock_ode_space(*group);
     throw;
@@ -57,9 +100,16 @@ bool OdeDetector::collide(
   }
 }
 
+std::unique_ptr<CollisionObject> OdeDetector::createCollisionObject(const dart::dynamics::ShapeFrame* frame)
+{
+  const LentNormals normals(*frame);
+  return OdeCollisionDetector::createCollisionObject(frame);
+}
+
 void OdeDetector::refreshCollisionObject(CollisionObject* object)
 {
   const auto* frame = object->getShapeFrame();
+  const LentNormals normals(*frame);
   const Object tried(this, frame); // if that throws, the old one is whole
   object->~CollisionObject();
   new (object) Object(this, frame);

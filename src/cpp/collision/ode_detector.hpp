@@ -2,12 +2,15 @@
 
 #include <dart/collision/ode/OdeCollisionDetector.hpp>
 
+#include "collision/missing_pairs.hpp"
+
 namespace pydart2 {
 
 /// The engine's detector with ODE, but that a shape that has changed is made anew where it was: the engine's own refresh
 /// leaves ODE, and a plane or mesh itself, with the address of an object that is no more. And what goes wrong inside ODE
-/// is an exception, after which the detector works.
-class OdeDetector : public dart::collision::OdeCollisionDetector
+/// is an exception, after which the detector works. A mesh without normals gets some while ODE copies them. And it is
+/// completed.
+class OdeDetector : public dart::collision::OdeCollisionDetector, public Completed
 {
 public:
   static std::shared_ptr<OdeDetector> create();
@@ -25,6 +28,8 @@ public:
       dart::collision::CollisionResult* result) override;
 
 protected:
+  std::unique_ptr<dart::collision::CollisionObject> createCollisionObject(
+      const dart::dynamics::ShapeFrame* frame) override;
   void refreshCollisionObject(dart::collision::CollisionObject* object) override;
 
 private:

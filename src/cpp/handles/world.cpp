@@ -257,6 +257,11 @@ void WorldHandle::set_collision_detector(const std::string& name)
   use_detector(*to_change().world->getConstraintSolver(), make_detector(name));
 }
 
+void WorldHandle::use_engine_shapes()
+{
+  pydart2::use_engine_shapes(*to_change().world->getConstraintSolver());
+}
+
 std::string WorldHandle::dynamics() const
 {
   return name_of(world().dynamics);

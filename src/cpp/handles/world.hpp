@@ -64,6 +64,9 @@ public:
   std::string collision_detector() const;
   void set_collision_detector(const std::string& name);
 
+  /// Shapes that a detector of the engine's does not have are what the engine makes of them.
+  void use_engine_shapes();
+
   /// "engine" or "fast".
   std::string dynamics() const;
   void set_dynamics(const std::string& name);
