@@ -46,8 +46,8 @@ def holds_world(path: Path) -> bool:
 def load(path: Path) -> pydart2.World:
     """The world that the oracle makes of the file."""
     if path.suffix == ".skel":
-        return pydart2.World(0.001, path)
-    world = pydart2.World(0.001)
+        return pydart2.World(0.001, path, engine_defaults=True)
+    world = pydart2.World(0.001, engine_defaults=True)
     world.add_skeleton(path, engine_defaults=True)
     return world
 

@@ -269,8 +269,10 @@ void run(int steps, const std::string& model, const std::string& detector, const
   const auto ours = make_scene(model, detector, variation);
   const auto compared = make_scene(model, detector, variation);
   for (const auto& world : {theirs, twin, ours, compared})
-    if (world == ours || (detector == "fcl" && has_cone_or_pyramid(*world)))
+    if (world == ours || (detector == "fcl" && has_cone_or_pyramid(*world))) {
       pydart2::replace_detector(*world->getConstraintSolver());
+      pydart2::use_engine_shapes(*world->getConstraintSolver());
+    }
   pydart2::install_solver(*ours, pydart2::Solver::fast);
   compared->setConstraintSolver(std::make_unique<ComparingSolver>(report));
   Stepper stepper(*ours);
