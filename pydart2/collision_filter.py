@@ -85,9 +85,12 @@ class WorldFilter:
         """
         self._handle.set_collision_bits(body_rows(self.skeletons, bodies), group, mask)
 
-    def collision_group(self, body: BodyNode) -> tuple[int, int]:
-        """Group and mask of a body."""
-        group, mask = self._handle.collision_bits(body._handle)
+    def collision_group(self, body: str | BodyNode | Skeleton) -> tuple[int, int]:
+        """Group and mask of a body, or of a skeleton with one; as of exclude_collisions()."""
+        bodies = _bodies(self.skeletons, body)
+        if len(bodies) != 1:
+            raise ValueError(f"{body!r} has {len(bodies)} bodies, each with a group: give one")
+        group, mask = self._handle.collision_bits(bodies[0]._handle)
         return int(group), int(mask)
 
 

@@ -23,7 +23,19 @@ Ids = NDArray[np.intp]
 
 
 @dataclass(frozen=True)
-class SurfacePoints:
+class _Found:
+    """What a question finds, as arrays."""
+
+    world: World
+    distances: Array
+    points: Array
+    normals: Array
+    skeletons: NDArray[np.intp]
+    bodies: NDArray[np.intp]
+    shapes: NDArray[np.intp]
+
+
+class SurfacePoints(_Found):
     """Points of shapes, found by rays or from points.
 
     The arrays have the leading shape of what was asked for: () for one, (n,) for n.
@@ -42,14 +54,6 @@ class SurfacePoints:
         Index of the skeleton in the world, of the body in the skeleton, of the shape node in the body; -1 for none.
     """
 
-    world: World
-    distances: Array
-    points: Array
-    normals: Array
-    skeletons: NDArray[np.intp]
-    bodies: NDArray[np.intp]
-    shapes: NDArray[np.intp]
-
     @property
     def hit(self) -> NDArray[np.bool_]:
         """Where something was found, shape (...); without unit."""
@@ -64,8 +68,7 @@ class RayHits(SurfacePoints):
     """What rays hit first."""
 
 
-@dataclass(frozen=True)
-class Distances:
+class Distances(_Found):
     """Pairs of shapes and how far they are apart.
 
     The arrays have the leading shape () for one pair, (n,) for n.
@@ -83,14 +86,6 @@ class Distances:
     skeletons, bodies, shapes : array of int, shape (..., 2)
         Index of the skeleton in the world, of the body in the skeleton, of the shape node in the body; -1 for no pair.
     """
-
-    world: World
-    distances: Array
-    points: Array
-    normals: Array
-    skeletons: NDArray[np.intp]
-    bodies: NDArray[np.intp]
-    shapes: NDArray[np.intp]
 
     def pair(self, index: int | tuple[int, ...] = ()) -> tuple[BodyNode | None, BodyNode | None]:
         """The two bodies; without an index those of the only pair."""

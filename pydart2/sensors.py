@@ -411,8 +411,10 @@ class BatchSensors:
 
 def _place(frame: BodyNode | SimpleFrame) -> tuple[BodyNode, Array | None]:
     """The body that carries a frame, and where the frame is in it."""
-    if not isinstance(frame, SimpleFrame):
+    if isinstance(frame, BodyNode):
         return frame, None
+    if not isinstance(frame, SimpleFrame):
+        raise TypeError(f"a sensor sits on a body or a SimpleFrame in one, got {frame!r}")
     if frame.parent is None:
         raise ValueError("a sensor sits on a body; this frame is fixed in the world")
     return frame.parent, frame.relative[:3, 3]

@@ -168,6 +168,8 @@ def test_a_fan_of_rays() -> None:
         Lidar(body, [[0.0, 0.0, 0.0]])
     with pytest.raises(ValueError, match="a sensor sits on a body"):
         Lidar(SimpleFrame(None), rays)
+    with pytest.raises(TypeError, match="a sensor sits on a body or a SimpleFrame"):
+        Lidar("sphere", rays)  # type: ignore[arg-type]
 
 
 def test_sensors_of_a_batch() -> None:

@@ -271,7 +271,7 @@ void run(int steps, const std::string& model, const std::string& detector, const
   for (const auto& world : {theirs, twin, ours, compared})
     if (world == ours || (detector == "fcl" && has_cone_or_pyramid(*world))) {
       pydart2::replace_detector(*world->getConstraintSolver());
-      pydart2::use_engine_shapes(*world->getConstraintSolver());
+      pydart2::shape_choice(*world->getConstraintSolver()).engine_shapes = true;
     }
   pydart2::install_solver(*ours, pydart2::Solver::fast);
   compared->setConstraintSolver(std::make_unique<ComparingSolver>(report));

@@ -77,7 +77,7 @@ def test_what_goes_takes_its_bits_along() -> None:
     world.exclude_collisions("left", "right")
     world.remove_skeleton(world.skeleton("left"))
     again = world.add_box([0.2, 0.2, 0.2], 1.0, [0.0, 0.0, 0.0999], name="left")
-    assert world.collision_group(again.bodynodes[0]) == (1, 0xFFFFFFFF)
+    assert world.collision_group("left") == world.collision_group(again.bodynodes[0]) == (1, 0xFFFFFFFF)
     assert touching(world) == ALL
 
 

@@ -36,7 +36,7 @@ def shape(world: World, kind: str, height: float, joint: str = "free") -> Skelet
 @pytest.mark.parametrize("detector", DETECTORS)
 @pytest.mark.parametrize("below", SHAPES)
 def test_each_meets_each(detector: str, below: str) -> None:
-    """Dropped from 5 cm above, the first contact is where the shapes meet, to 1 % (Bullet's margin is 6 mm)."""
+    """Dropped from 5 cm above, the first contact is where the shapes meet; Bullet's margin is 6 mm, a step 1 mm."""
     for kind in SHAPES:
         world = World(0.001, up="z")
         shape(world, below, 0.0, "weld")
@@ -45,7 +45,7 @@ def test_each_meets_each(detector: str, below: str) -> None:
         while len(world.contacts) == 0 and world.t < 0.12:
             world.step()
         assert len(world.contacts) > 0, kind
-        assert falling.q[5] == pytest.approx(0.4, abs=0.007), kind
+        assert falling.q[5] == pytest.approx(0.4, abs=0.007 if detector == "bullet" else 0.001), kind
 
 
 @pytest.mark.parametrize("detector", DETECTORS)
@@ -100,8 +100,8 @@ def test_the_way_back_to_the_engine() -> None:
     world = World(0.001, up="z", engine_defaults=True)
     world.add_ground()
     shape(world, "capsule", 0.2)
-    world.set_collision_detector("bullet")
-    world.set_collision_detector("fcl")
+    for detector in ("bullet", "native", "fcl"):
+        world.set_collision_detector(detector)
     for copy in (world, world.clone(), pickle.loads(pickle.dumps(world)), pydart2.Batch(world, 1).worlds[0]):
         copy.step(400)
         assert copy.skeletons[1].q[5] == pytest.approx(0.05, abs=2e-3)

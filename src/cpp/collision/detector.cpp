@@ -1,7 +1,7 @@
 #include "collision/detector.hpp"
 
 #include "base/errors.hpp"
-#include "collision/completed_detectors.hpp"
+#include "collision/engine_detectors.hpp"
 #include "collision/fcl_detector.hpp"
 #include "collision/native_detector.hpp"
 #include "collision/ode_detector.hpp"
@@ -39,9 +39,8 @@ void use_detector(ConstraintSolver& solver, const CollisionDetectorPtr& detector
   // Not by setCollisionDetector(): shapes that change would collide as before, as its group does not follow skeletons.
   const auto lock = lock_ode();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
-  const auto* before = dynamic_cast<const Completed*>(SolverMembers::detector_of(solver).get());
-  if (auto* completed = dynamic_cast<Completed*>(detector.get()); completed != nullptr && before != nullptr)
-    completed->missing.engine_shapes = before->missing.engine_shapes;
+  if (const auto* before = dynamic_cast<const ShapeChoice*>(solver.getCollisionDetector().get()))
+    dynamic_cast<ShapeChoice&>(*detector).engine_shapes = before->engine_shapes;
   auto& group = SolverMembers::group_of(solver);
   group = detector->createCollisionGroupAsSharedPtr();
   SolverMembers::detector_of(solver) = detector;
@@ -78,19 +77,9 @@ void renew_detector(ConstraintSolver& solver)
   }
 }
 
-bool has_engine_shapes(const ConstraintSolver& solver)
+ShapeChoice& shape_choice(ConstraintSolver& solver)
 {
-  const auto* completed = dynamic_cast<const Completed*>(solver.getCollisionDetector().get());
-  return completed != nullptr && completed->missing.engine_shapes;
-}
-
-void use_engine_shapes(ConstraintSolver& solver)
-{
-  const auto detector = solver.getCollisionDetector();
-  if (auto* completed = dynamic_cast<Completed*>(detector.get())) {
-    completed->missing.engine_shapes = true;
-    use_detector(solver, detector); // the shapes are made anew
-  }
+  return dynamic_cast<ShapeChoice&>(*solver.getCollisionDetector());
 }
 
 void visit_detector(Archive& archive, ConstraintSolver& solver)
@@ -98,8 +87,8 @@ void visit_detector(Archive& archive, ConstraintSolver& solver)
   archive.text(
       [&] { return solver.getCollisionDetector()->getType(); },
       [&](const std::string& name) { use_detector(solver, make_detector(name)); });
-  if (archive.part("engine's shapes", has_engine_shapes(solver)))
-    use_engine_shapes(solver);
+  auto& choice = shape_choice(solver);
+  choice.engine_shapes = archive.part("engine's shapes", choice.engine_shapes);
   const auto fcl = std::dynamic_pointer_cast<FCLCollisionDetector>(solver.getCollisionDetector());
   if (!fcl)
     return;

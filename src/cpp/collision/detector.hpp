@@ -23,6 +23,14 @@ auto with_ode(Make make)
   return make();
 }
 
+/// Of each detector that make_detector() makes; one that takes its place takes it over.
+struct ShapeChoice
+{
+  virtual ~ShapeChoice() = default;
+
+  bool engine_shapes = false; ///< What the engine's detectors lack stays so, instead of being the native one's to find.
+};
+
 /// "dart", "fcl", "bullet", "ode" or "native"; ValueError for any other name.
 dart::collision::CollisionDetectorPtr make_detector(const std::string& name);
 
@@ -33,9 +41,8 @@ void use_detector(dart::constraint::ConstraintSolver& solver, const dart::collis
 /// Lets a world that the engine has made find contacts with one of make_detector(), of the same kind.
 void replace_detector(dart::constraint::ConstraintSolver& solver);
 
-/// Lets a solver's detector take shapes that it does not have as the engine does, instead of asking the native one.
-void use_engine_shapes(dart::constraint::ConstraintSolver& solver);
-bool has_engine_shapes(const dart::constraint::ConstraintSolver& solver);
+/// Of a solver with one of make_detector()'s.
+ShapeChoice& shape_choice(dart::constraint::ConstraintSolver& solver);
 
 /// The same detector without memory of the steps before.
 void renew_detector(dart::constraint::ConstraintSolver& solver);

@@ -218,13 +218,7 @@ bool fcl_does(ShapeKind a, ShapeKind b)
 
 } // namespace
 
-FclDetector::FclDetector() : Completed(fcl_does) {}
-
-bool FclDetector::collide(CollisionGroup* group, const CollisionOption& option, CollisionResult* result)
-{
-  return missing.collide(
-      *this, *group, option, result, [&](const auto& part) { return FCLCollisionDetector::collide(group, part, result); });
-}
+FclDetector::FclDetector() : CompletedDetector(fcl_does) {}
 
 std::shared_ptr<FclDetector> FclDetector::create()
 {
@@ -233,9 +227,7 @@ std::shared_ptr<FclDetector> FclDetector::create()
 
 std::shared_ptr<CollisionDetector> FclDetector::cloneWithoutCollisionObjects() const
 {
-  const auto made = create();
-  made->missing.engine_shapes = missing.engine_shapes;
-  return made;
+  return create();
 }
 
 std::unique_ptr<CollisionObject> FclDetector::createCollisionObject(const ShapeFrame* frame)

@@ -2,7 +2,7 @@
 
 #include <dart/collision/fcl/FCLCollisionDetector.hpp>
 
-#include "collision/missing_pairs.hpp"
+#include "collision/completed_detector.hpp"
 
 namespace pydart2 {
 
@@ -10,17 +10,12 @@ namespace pydart2 {
 /// which is most of what a robot takes in memory. A shape that has changed keeps its body: the engine's own refresh
 /// forgets to say whose shape it is, and the next contact reads memory that was never set. And cones and pyramids
 /// are where they belong: the engine makes their triangles at a pose that was never set. And it is completed.
-class FclDetector : public dart::collision::FCLCollisionDetector, public Completed
+class FclDetector : public CompletedDetector<dart::collision::FCLCollisionDetector>
 {
 public:
   static std::shared_ptr<FclDetector> create();
 
   std::shared_ptr<dart::collision::CollisionDetector> cloneWithoutCollisionObjects() const override;
-
-  using FCLCollisionDetector::collide;
-  bool collide(
-      dart::collision::CollisionGroup* group, const dart::collision::CollisionOption& option,
-      dart::collision::CollisionResult* result) override;
 
 protected:
   std::unique_ptr<dart::collision::CollisionObject> createCollisionObject(

@@ -4,7 +4,6 @@
 #include <array>
 #include <dart/dynamics/EllipsoidShape.hpp>
 #include <dart/dynamics/ShapeNode.hpp>
-#include <unordered_map>
 
 #include "collision/native_detector.hpp"
 
@@ -19,7 +18,7 @@ namespace {
 using Kinds = std::unordered_map<const ShapeFrame*, ShapeKind>;
 
 /// Lets through of what another filter does only the pairs that a detector misses, or only the others.
-class PartFilter final : public CollisionFilter
+class PartFilter final : public dart::collision::CollisionFilter
 {
 public:
   PartFilter(std::shared_ptr<CollisionFilter> inner, MissingPairs::Does does, std::shared_ptr<const Kinds> kinds, bool missing)

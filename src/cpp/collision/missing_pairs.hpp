@@ -4,6 +4,7 @@
 #include <dart/collision/CollisionOption.hpp>
 #include <dart/collision/CollisionResult.hpp>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "collision/native_scene.hpp"
@@ -25,16 +26,13 @@ public:
   /// `does` tells for which pairs the detector has a way; it is symmetric.
   explicit MissingPairs(Does does) : does_(does) {}
 
-  /// As without all this.
-  bool engine_shapes = false;
-
   /// What `engine` finds with an option, and what it would miss.
   template <class Engine>
   bool collide(
       const dart::collision::CollisionDetector& detector, dart::collision::CollisionGroup& group,
       const dart::collision::CollisionOption& option, dart::collision::CollisionResult* result, const Engine& engine)
   {
-    if (engine_shapes || !look(detector, group))
+    if (!look(detector, group))
       return engine(option);
     auto rest = option;
     rest.collisionFilter = only(option.collisionFilter, false);
@@ -69,16 +67,6 @@ private:
   std::vector<std::unique_ptr<native::Object>> objects_; ///< Empty: nothing is missing.
   native::Scene scene_;
   std::vector<native::Touch> touches_;
-};
-
-/// A detector of the engine's that is completed so.
-class Completed
-{
-public:
-  explicit Completed(MissingPairs::Does does) : missing(does) {}
-  virtual ~Completed() = default;
-
-  MissingPairs missing;
 };
 
 } // namespace pydart2

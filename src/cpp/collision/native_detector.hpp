@@ -4,6 +4,7 @@
 #include <dart/collision/CollisionGroup.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
 
+#include "collision/detector.hpp"
 #include "collision/native_scene.hpp"
 
 namespace pydart2 {
@@ -15,7 +16,7 @@ bool report(
 
 /// The package's own detector: exact contact points of convex shapes and of meshes of triangles, made afresh in each step
 /// and in an order that only the model settles. It knows nothing of soft bodies.
-class NativeDetector : public dart::collision::CollisionDetector
+class NativeDetector : public dart::collision::CollisionDetector, public ShapeChoice
 {
 public:
   using CollisionDetector::createCollisionGroup;

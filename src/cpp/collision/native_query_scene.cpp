@@ -71,17 +71,16 @@ int QueryScene::cast(const Ray& ray, RayHit& hit) const
   return which;
 }
 
-int QueryScene::nearest(const Vector& center, double radius, Clearance& found) const
+int QueryScene::nearest(const Vector& point, Clearance& found) const
 {
-  Geometry ball;
-  ball.form = Form::sphere;
-  ball.radius = radius;
-  const Bounds place{center, center};
+  Geometry dot;
+  dot.form = Form::sphere;
+  const Bounds place{point, point};
   int which = -1;
   const auto look = [&](int index) {
     const auto& [geometry, pose, to_shape, bounds] = item(index);
     Clearance here;
-    if (native::clearance(*geometry, ball, Pose(Eigen::Translation3d(to_shape * center)), found.distance, here)
+    if (native::clearance(*geometry, dot, Pose(Eigen::Translation3d(to_shape * point)), found.distance, here)
         && (which < 0 || here.distance < found.distance)) {
       found = moved(pose, here);
       which = index;
@@ -90,10 +89,10 @@ int QueryScene::nearest(const Vector& center, double radius, Clearance& found) c
   };
   for (const int index : unbounded_)
     look(index);
-  // Of boxes that the sphere is in any may be the nearest, so all of these are looked at.
+  // Of boxes that the point is in any may be the nearest, so all of these are looked at.
   const auto least = [&](const Bounds& box) {
     const double apart = box.distance(place);
-    return apart > 0.0 ? apart - radius : -std::numeric_limits<double>::infinity();
+    return apart > 0.0 ? apart : -std::numeric_limits<double>::infinity();
   };
   tree_.nearest(found.distance, least, look);
   return which;

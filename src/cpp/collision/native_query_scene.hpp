@@ -21,8 +21,8 @@ public:
   /// What a ray of the world hits sooner than `hit`.
   int cast(const Ray& ray, RayHit& hit) const;
 
-  /// What is nearer to a sphere than `found.distance`, seen from the shape: its point is the first.
-  int nearest(const Vector& center, double radius, Clearance& found) const;
+  /// What is nearer to a point than `found.distance`, seen from the shape: its point is the first.
+  int nearest(const Vector& point, Clearance& found) const;
 
   /// Whether two shapes are no farther apart than `most`; in the world.
   bool clearance(int a, int b, double most, Clearance& found) const;

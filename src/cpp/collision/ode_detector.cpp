@@ -59,7 +59,7 @@ bool ode_does(ShapeKind a, ShapeKind b)
 
 } // namespace
 
-OdeDetector::OdeDetector() : Completed(ode_does)
+OdeDetector::OdeDetector() : CompletedDetector(ode_does)
 {
   make_ode_throw();
 }
@@ -71,17 +71,13 @@ std::shared_ptr<OdeDetector> OdeDetector::create()
 
 std::shared_ptr<CollisionDetector> OdeDetector::cloneWithoutCollisionObjects() const
 {
-  const auto made = create();
-  made->missing.engine_shapes = missing.engine_shapes;
-  return made;
+  return create();
 }
 
 bool OdeDetector::collide(CollisionGroup* group, const CollisionOption& option, CollisionResult* result)
 {
   try {
-    return missing.collide(*this, *group, option, result, [&](const auto& part) {
-      return OdeCollisionDetector::collide(group, part, result);
-    });
+    return CompletedDetector::collide(group, option, result);
   } catch (...) {
     unlock_ode_space(*group);
     throw;

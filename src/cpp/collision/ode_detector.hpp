@@ -2,7 +2,7 @@
 
 #include <dart/collision/ode/OdeCollisionDetector.hpp>
 
-#include "collision/missing_pairs.hpp"
+#include "collision/completed_detector.hpp"
 
 namespace pydart2 {
 
@@ -10,7 +10,7 @@ namespace pydart2 {
 /// leaves ODE, and a plane or mesh itself, with the address of an object that is no more. And what goes wrong inside ODE
 /// is an exception, after which the detector works. A mesh without normals gets some while ODE copies them. And it is
 /// completed.
-class OdeDetector : public dart::collision::OdeCollisionDetector, public Completed
+class OdeDetector : public CompletedDetector<dart::collision::OdeCollisionDetector>
 {
 public:
   static std::shared_ptr<OdeDetector> create();

@@ -104,7 +104,7 @@ void QueriesHandle::nearest(const MatrixIn& points, double max_distance, const M
   for (long i = 0; i < points.rows; ++i) {
     native::Clearance found;
     found.distance = max_distance;
-    const int which = scene_.nearest(Eigen::Map<const Eigen::Vector3d>(points.data + 3 * i), 0.0, found);
+    const int which = scene_.nearest(Eigen::Map<const Eigen::Vector3d>(points.data + 3 * i), found);
     if (which < 0) {
       rows.row(i) << infinity, Eigen::RowVectorXd::Constant(6, std::nan("")), -1.0, -1.0, -1.0;
       continue;

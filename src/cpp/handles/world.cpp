@@ -259,7 +259,7 @@ void WorldHandle::set_collision_detector(const std::string& name)
 
 void WorldHandle::use_engine_shapes()
 {
-  pydart2::use_engine_shapes(*to_change().world->getConstraintSolver());
+  shape_choice(*to_change().world->getConstraintSolver()).engine_shapes = true;
 }
 
 std::string WorldHandle::dynamics() const

@@ -117,8 +117,6 @@ void visit_ignored_pairs(Archive& archive, WorldRecord& world)
     body1 = visit_reference(archive, world, body1);
     body2 = visit_reference(archive, world, body2);
   }
-  if (archive.is_in())
-    apply_collision_filter(world);
 }
 
 void visit_collision_bits(Archive& archive, WorldRecord& world)
@@ -142,8 +140,6 @@ void visit_collision_bits(Archive& archive, WorldRecord& world)
         if (archive.is_in() && !of.usual())
           bits[body] = of;
       }
-  if (archive.is_in())
-    apply_collision_filter(world);
 }
 
 /// What is as in a new world is not saved.
@@ -365,6 +361,8 @@ void visit_model(Archive& archive, WorldRecord& record)
         [&] { return std::string(name_of(record.integrator)); },
         [&](const auto& name) { record.integrator = integrator_named(name); });
   visit_collision_bits(archive, record);
+  if (archive.is_in())
+    apply_collision_filter(record);
   visit_sleep(archive, record.sleep);
 }
 
