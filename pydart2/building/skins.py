@@ -56,7 +56,7 @@ class Skin:
         mass
             Of all points, kg.
         cells
-            Into how many pieces each edge is cut, one number or shape (3,).
+            Into how many pieces each edge is cut, at most 100; one number or shape (3,).
         **springs
             stiffness and edge_stiffness, N/m, and damping, N s/m.
         """
@@ -95,6 +95,8 @@ def _cube(cells: ArrayLike) -> tuple[Array, NDArray[np.intp]]:
     n = np.broadcast_to(np.asarray(cells), (3,))
     if not np.issubdtype(n.dtype, np.integer) or (n < 1).any():
         raise ValueError(f"an edge has one cell or more, a whole number, got {cells!r}")
+    if (n > 100).any():  # 60,000 points, far more than a step can move
+        raise ValueError(f"an edge of a skin is cut into 100 cells at most, got {cells!r}")
     grid = np.stack(np.meshgrid(*(np.arange(k + 1) for k in n), indexing="ij"), axis=-1)
     on_surface = ((grid == 0) | (grid == n)).any(axis=-1)
     index = np.full(on_surface.shape, -1)

@@ -195,6 +195,7 @@ def test_what_is_refused(tmp_path: Path) -> None:
         ("a soft body needs a mass", lambda: world.add_soft_mesh(np.diag([1.0, 1.0, 0.0]), [[0, 1, 2]], 1.0)),
         ("the stiffness of a skin", lambda: world.add_soft_box((1, 1, 1), stiffness=-1.0)),
         ("one cell or more", lambda: world.add_soft_box((1, 1, 1), cells=0)),
+        ("100 cells at most", lambda: world.add_soft_box((1, 1, 1), cells=2**31)),
         ("three numbers", lambda: world.add_soft_ellipsoid((1, 1))),
         ("vertices are", lambda: Skin.mesh([[0, 0]], [[0, 0, 0]], 1.0)),
         ("need a mass", lambda: Skin.box((1, 1, 1), 0.0)),
