@@ -111,6 +111,16 @@ def test_states(world: pydart2.World, skel: pydart2.Skeleton) -> None:
     assert not world.x.any()
 
 
+def test_a_base_that_floats_is_named(fullbody: pydart2.World) -> None:
+    human = fullbody.skeletons[1]
+    with pytest.raises(
+        ValueError, match=r"positions \(the first 6 are of the base, which floats; .* needs 37 numbers, got 31"
+    ):
+        human.q = np.zeros(31)
+    with pytest.raises(ValueError, match="^positions needs 37 numbers, got 30"):
+        human.q = np.zeros(30)
+
+
 def test_position_differences(skel: pydart2.Skeleton) -> None:
     with pytest.raises(ValueError, match="positions needs 16 numbers, got 3"):
         skel.position_differences(np.zeros(16), np.zeros(3))

@@ -55,7 +55,11 @@ void SkeletonHandle::each_dof(Output& out, Read read) const
 
 const Eigen::VectorXd& SkeletonHandle::per_dof(const VectorIn& values, const char* what)
 {
-  check::size(values.size, std::as_const(*this).dofs().size(), what);
+  const auto& dofs = std::as_const(*this).dofs();
+  std::string named = what;
+  if (values.size + 6 == static_cast<long>(dofs.size()) && dofs.front()->getJoint()->getNumDofs() == 6)
+    named += " (the first 6 are of the base, which floats; base=\"fixed\" welds it)";
+  check::size(values.size, dofs.size(), named.c_str());
   check::finite(values, what);
   scratch_ = values.eigen();
   return scratch_;
