@@ -117,7 +117,7 @@ def test_a_base_that_floats_is_named(fullbody: pydart2.World) -> None:
         ValueError, match=r"positions \(the first 6 are of the base, which floats; .* needs 37 numbers, got 31"
     ):
         human.q = np.zeros(31)
-    with pytest.raises(ValueError, match="^positions needs 37 numbers, got 30"):
+    with pytest.raises(ValueError, match=r"^positions needs 37 numbers, got 30"):
         human.q = np.zeros(30)
 
 
