@@ -54,12 +54,12 @@ def _takes(owner: Assignable, name: str, value: Any) -> bool:
             return False
         _say_what_is_near(cls, name)
     elif home is not None and _is_ours(home) and _is_in_the_way(known):
-        return _takes_over(owner, name, value, known, home)
+        return _takes_over(owner, name, value, known)
     cls._unlooked.add(name)
     return True
 
 
-def _takes_over(owner: Assignable, name: str, value: Any, known: Any, home: type) -> bool:
+def _takes_over(owner: Assignable, name: str, value: Any, known: Any) -> bool:
     """As _takes(), over a method or a read-only property of ours."""
     if callable(value) and not isinstance(known, property):
         return True
@@ -68,9 +68,9 @@ def _takes_over(owner: Assignable, name: str, value: Any, known: Any, home: type
         setter(owner, value)
         return False
     if _is_original(type(owner), name):
-        raise AttributeError(_refusal(home, name, known, value))
+        raise AttributeError(_refusal(_known_as(type(owner)), name, known, value))
     if name not in vars(owner):
-        _log.warning("%s.%s hides %s.%s", type(owner).__name__, name, home.__name__, name)
+        _log.warning("%s.%s hides %s.%s", type(owner).__name__, name, _known_as(type(owner)).__name__, name)
     if isinstance(known, property):
         setattr(type(owner), name, _Yielding(known))
         type(owner)._unlooked.add(name)
@@ -124,6 +124,11 @@ def _is_ours(cls: type) -> bool:
     return cls.__module__.partition(".")[0] == _PACKAGE
 
 
+def _known_as(cls: type) -> type:
+    """Our class that a user's is made of, not the part of it that has a name."""
+    return next(base for base in cls.__mro__ if _is_ours(base))
+
+
 def _is_original(cls: type, name: str) -> bool:
     return any(name in ORIGINAL.get(base.__name__, ()) for base in cls.__mro__ if _is_ours(base))
 
@@ -135,7 +140,7 @@ def _say_what_is_hidden(cls: type) -> None:
         if name[:1] == "_" or home is None or not _is_ours(home) or _is_original(cls, name):
             continue
         if isinstance(known, property) != isinstance(value, property) and _is_in_the_way(known):
-            _log.warning("%s.%s hides %s.%s", cls.__name__, name, home.__name__, name)
+            _log.warning("%s.%s hides %s.%s", cls.__name__, name, _known_as(cls).__name__, name)
 
 
 def _say_what_is_near(cls: type, name: str) -> None:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pydart2._native import WorldHandle
 from pydart2.bodynode import BodyNode
 from pydart2.errors import NameNotFound
+from pydart2.simulation.part import WorldPart
 from pydart2.skeleton import Skeleton
 
 if TYPE_CHECKING:
@@ -41,11 +41,8 @@ class CollisionFilter:
         self.world._handle.ignore_no_pair()
 
 
-class WorldFilter:
+class WorldFilter(WorldPart):
     """Which bodies of a World pass through each other; part of World."""
-
-    _handle: WorldHandle
-    skeletons: list[Skeleton]
 
     def exclude_collisions(self, a: Bodies, b: Bodies) -> None:
         """Let each body of `a` pass through each of `b`.

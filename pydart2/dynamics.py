@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2.targets import TargetControl
+from pydart2.multibody.masses import Masses
 
 if TYPE_CHECKING:
-    from pydart2._native import SkeletonHandle
     from pydart2.bodynode import BodyNode
 
 Array = NDArray[np.float64]
@@ -32,18 +31,11 @@ class ForwardDynamicsDerivatives(NamedTuple):
     tau: Array  #: Minv, 1/(kg m²) or 1/kg
 
 
-class Dynamics(TargetControl):
+class Dynamics(Masses):
     """What a Skeleton knows of ``M ddq + c = tau + external + damping + springs + constraints``.
 
     The forces are those of the present q and dq, with the sign that they have in this equation.
     """
-
-    _handle: SkeletonHandle
-
-    @property
-    def Minv(self) -> Array:  # noqa: N802 (the field's name)
-        """Inverse of the mass matrix, shape (ndofs, ndofs), 1/(kg m²) or 1/kg."""
-        return self._handle.inv_mass_matrix(None)
 
     def aug_mass_matrix(self) -> Array:
         """``M + dt D + dt² K`` of the step's implicit damping and springs, shape (ndofs, ndofs), kg m² or kg."""
@@ -203,14 +195,3 @@ class Dynamics(TargetControl):
         if vector.shape != (self.ndofs,):
             raise ValueError(f"{what} have the shape ({self.ndofs},), one number per dof; got {vector.shape}")
         return vector
-
-    if TYPE_CHECKING:  # of Skeleton
-
-        @property
-        def M(self) -> Array: ...  # noqa: N802
-        @property
-        def c(self) -> Array: ...
-        @property
-        def dq(self) -> Array: ...
-        @property
-        def ndofs(self) -> int: ...

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2._native import QueriesHandle, WorldHandle
+from pydart2._native import QueriesHandle
 from pydart2.collision_filter import Bodies, body_rows
 from pydart2.contact_forces import Contacts
-from pydart2.skeleton import Skeleton
+from pydart2.simulation.part import WorldPart
 
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
+    from pydart2.skeleton import Skeleton
     from pydart2.state import Snapshot
     from pydart2.world import World
 
@@ -110,11 +111,9 @@ class Linearization(NamedTuple):
     B: Array  #: shape (2 n, n), per N m or N
 
 
-class WorldQueries:
+class WorldQueries(WorldPart):
     """What a World can be asked; nothing of the simulation changes."""
 
-    _handle: WorldHandle
-    skeletons: list[Skeleton]
     _queries: QueriesHandle | None = None  # keeps what it made of the shapes
 
     def raycast(

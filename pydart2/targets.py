@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.multibody.coordinates import Coordinates
 from pydart2.skel_vector import SkelVector
-
-if TYPE_CHECKING:
-    from pydart2._native import SkeletonHandle
-    from pydart2.dof import Dof
-    from pydart2.indexing import Names
 
 Compensation = Literal["none", "gravity", "bias"]
 Mask = NDArray[np.bool_]
@@ -44,13 +40,8 @@ class Targets:
     compensate: Compensation
 
 
-class TargetControl:
+class TargetControl(Coordinates):
     """A Skeleton's motors."""
-
-    _handle: SkeletonHandle
-    _pattern: SkelVector
-    dofs: list[Dof]
-    names: Names
 
     def set_targets(
         self,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pydart2 import screen
-from pydart2.errors import DestroyedError, NameNotFound
+from pydart2.errors import DestroyedError
 
 if TYPE_CHECKING:
     from pydart2.skel_vector import SkelVector
@@ -20,42 +20,14 @@ _MOST_ROWS = 20
 _PICTURE = (480, 360)  # pixels
 
 
-class Named:
-    """The part of World that finds skeletons by name and says what is in it."""
+def about_world(world: World) -> str:
+    """What is in a world and how it steps, a line for each skeleton."""
+    return "\n".join(_lines(world))
 
-    if TYPE_CHECKING:  # what World has
-        skeletons: list[Skeleton]
 
-    def skeleton(self, query: str | int) -> Skeleton:
-        """A skeleton by name or index; NameNotFound or IndexError if there is none."""
-        if isinstance(query, str):
-            for skel in self.skeletons:
-                if skel.name == query:
-                    return skel
-            raise NameNotFound("skeleton", query, repr(self), [skel.name for skel in self.skeletons])
-        if not isinstance(query, (int, np.integer)):
-            raise TypeError(f"a skeleton is found by name or index, not by {query!r}")
-        if not -len(self.skeletons) <= query < len(self.skeletons):
-            raise IndexError(f"no skeleton {query} in {self!r}: there are {len(self.skeletons)}")
-        return self.skeletons[query]
-
-    def __getitem__(self, query: str | int) -> Skeleton:
-        return Named.skeleton(self, query)
-
-    def __iter__(self) -> Iterator[Skeleton]:
-        return iter(self.skeletons)
-
-    def _ipython_key_completions_(self) -> list[str]:
-        return [skel.name for skel in self.skeletons]
-
-    def __str__(self) -> str:
-        return "\n".join(_lines(self))  # type: ignore[arg-type]
-
-    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
-        printer.text(str(self))
-
-    def _repr_png_(self) -> bytes | None:
-        return screen.picture(self, *_PICTURE)
+def picture_of_world(world: World) -> bytes | None:
+    """A picture as a PNG file; None where there is no OpenGL."""
+    return screen.picture(world, *_PICTURE)
 
 
 def _lines(world: World) -> Iterator[str]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pydart2.building import solids
-from pydart2.building.poses import pose
+from pydart2.poses import pose
 from pydart2.shapenode import ShapeNode
 
 if TYPE_CHECKING:

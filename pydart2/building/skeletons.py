@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pydart2.building.poses import pose
+from pydart2.multibody.structure import Structure
+from pydart2.poses import pose
 
 if TYPE_CHECKING:
-    from pydart2._native import SkeletonHandle
     from pydart2.bodynode import BodyNode
     from pydart2.building.skins import Skin
     from pydart2.joint import Joint
@@ -37,16 +37,8 @@ _AXES = {
 _ONE_AXIS = ("prismatic", "revolute", "screw")
 
 
-class SkeletonBuilding:
+class SkeletonBuilding(Structure):
     """The part of Skeleton that adds to it."""
-
-    _handle: SkeletonHandle
-    bodynodes: list[BodyNode]
-
-    if TYPE_CHECKING:  # what Skeleton has
-
-        def build(self) -> None: ...
-        def body(self, query: str | int) -> BodyNode: ...
 
     def add_body(
         self,

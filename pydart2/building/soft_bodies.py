@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 from pydart2.building import solids
 from pydart2.building.bodies import DENSITY, BodyOptions, paint
 from pydart2.building.skins import Skin
+from pydart2.simulation.members import Members
 
 if TYPE_CHECKING:
-    from pydart2._native import WorldHandle
     from pydart2.skeleton import Skeleton
 
 
@@ -34,19 +34,12 @@ class SoftOptions(BodyOptions, total=False):
     damping: float
 
 
-class SoftBuilding:
+class SoftBuilding(Members):
     """The part of World that adds soft bodies to it.
 
     Half of the mass is that of the rigid core, spread over the whole inside; half is shared by the points. The core has
     no shape: nothing but the skin collides, before one is added to the body.
     """
-
-    _handle: WorldHandle
-
-    if TYPE_CHECKING:  # what World has
-
-        def add_skeleton_from_id(self, _skel_id: int) -> Skeleton: ...
-        def remove_skeleton(self, skel: Skeleton) -> None: ...
 
     def add_soft_box(
         self,
@@ -129,8 +122,8 @@ class SoftBuilding:
         if not 0.0 < half < np.inf or not solid.volume > 0.0:
             raise ValueError("a soft body needs a mass, and a surface that encloses something")
         springs = {name: float(options[name]) for name in ("stiffness", "edge_stiffness", "damping") if name in options}
-        skel = self.add_skeleton_from_id(self._handle.add_empty_skeleton(options["name"]))
-        try:
+        with self._all_or_nothing():
+            skel = self.add_skeleton_from_id(self._handle.add_empty_skeleton(options["name"]))
             body = skel.add_body(
                 options["name"],
                 joint="weld" if options.get("fixed", False) else "free",
@@ -142,7 +135,4 @@ class SoftBuilding:
                 skin=Skin.mesh(points.points, points.triangles, half, **springs),
             )
             paint(body.shapenodes[0]._handle, options)
-        except BaseException:
-            self.remove_skeleton(skel)
-            raise
-        return skel
+            return skel

@@ -9,28 +9,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2.building import solids
 from pydart2.building.bodies import DENSITY, BodyOptions, ShapeOptions, attach
-from pydart2.building.poses import between, pose
 from pydart2.building.soft_bodies import SoftBuilding
+from pydart2.poses import between, pose
+from pydart2.simulation.up import Upright
 
 if TYPE_CHECKING:
-    from pydart2._native import WorldHandle
     from pydart2.skeleton import Skeleton
 
 _NO_AXES = np.zeros((0, 3))
 
 
-class WorldBuilding(SoftBuilding):
+class WorldBuilding(SoftBuilding, Upright):
     """The part of World that adds to it without files."""
 
-    _handle: WorldHandle
     _under_construction: Skeleton | None = None
-
-    if TYPE_CHECKING:  # what World has
-        skeletons: list[Skeleton]
-
-        def _upwards(self) -> NDArray[np.float64]: ...
-
-        def add_skeleton_from_id(self, _skel_id: int) -> Skeleton: ...
 
     def add_empty_skeleton(self, name: str = "skeleton") -> Skeleton:
         """Add a skeleton without bodies, for `Skeleton.add_body`. If the name is taken, a number is added to it."""
@@ -182,13 +174,10 @@ class WorldBuilding(SoftBuilding):
         if not fixed and (mass == 0.0 or (mass is None and solid.volume == 0.0)):
             raise ValueError("what moves needs a mass")
         where = pose(position, options.get("orientation"))
-        index = self._handle.add_empty_skeleton(options.get("name", "body"))
-        try:
+        with self._all_or_nothing():
+            index = self._handle.add_empty_skeleton(options.get("name", "body"))
             self._fill(index, solid, mass, where, options)
-        except BaseException:
-            self._handle.remove_skeleton(index)
-            raise
-        return self.add_skeleton_from_id(index)
+            return self.add_skeleton_from_id(index)
 
     def _fill(
         self, index: int, solid: solids.Solid, mass: float | None, where: NDArray[np.float64], options: BodyOptions

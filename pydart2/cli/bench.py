@@ -11,8 +11,8 @@ import pydart2
 from pydart2.cli.models import add_file
 from pydart2.cli.report import Report, table
 from pydart2.gui.first_look import open_world
+from pydart2.simulation.step_options import DETECTORS
 from pydart2.utils.progress import progress
-from pydart2.world import _DETECTORS
 
 _SECONDS = 0.5  # of each measurement
 _AT_ONCE = 20  # steps
@@ -32,7 +32,7 @@ def run(args: argparse.Namespace) -> Report:
     world = open_world(args.file)
     world.disable_recording()
     own = world.collision_detector(), world.constraint_solver()
-    others = [(d, s) for d in _DETECTORS for s in _SOLVERS if (d, s) != own]
+    others = [(d, s) for d in DETECTORS for s in _SOLVERS if (d, s) != own]
     rows = [_measure(world.clone(), *choice) for choice in progress([own, *others], "measuring", "world")]
     free = world.clone()
     for skel in free.skeletons:
@@ -53,7 +53,7 @@ def _measure(world: pydart2.World, detector: int, solver: str) -> dict[str, Any]
     """What a step takes and how many contacts it has, from the start of the world on."""
     world.set_collision_detector(detector)
     world.set_constraint_solver(solver)
-    row: dict[str, Any] = {"detector": _DETECTORS[detector], "solver": solver, "us_per_step": math.nan, "contacts": 0}
+    row: dict[str, Any] = {"detector": DETECTORS[detector], "solver": solver, "us_per_step": math.nan, "contacts": 0}
     steps = contacts = 0
     seconds = 0.0
     try:

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from pydart2.building.poses import between, pose
 from pydart2.exporting.losses import Losses
 from pydart2.exporting.numbers import Element, add, attributes, is_identity, text
 from pydart2.exporting.parts import LinkPart, ShapePart
 from pydart2.exporting.shapes import mesh_file, mesh_scale
+from pydart2.poses import between, pose
 
 _STL_HEADER, _STL_TRIANGLE, _STL_MOST = 84, 50, 200_000  # bytes, bytes, and what MuJoCo takes
 

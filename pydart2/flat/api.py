@@ -36,6 +36,7 @@ from pydart2.flat.table import ROWS, Row
 from pydart2.loading import read_model
 from pydart2.manager import set_verbose as _set_verbose  # noqa: F401 (named in the table)
 from pydart2.manager import verbose as _verbose  # noqa: F401
+from pydart2.simulation.step_options import DETECTORS, detector_number
 
 # The worlds that the flat functions made; those of World objects are kept alive by whoever made them.
 _owned: dict[int, WorldHandle] = {}
@@ -103,14 +104,14 @@ def _index_of_first_dof(handle: WorldHandle, i: int) -> int:
 
 def _set_collision_detector(handle: WorldHandle, detector_type: int) -> None:
     """Set the detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE) 10 (native); ValueError for any other."""
-    if detector_type not in world._DETECTORS:
-        raise ValueError(f"no collision detector {detector_type!r}; they are {', '.join(map(str, world._DETECTORS))}")
-    handle.set_collision_detector(world._DETECTORS[detector_type])
+    if detector_type not in DETECTORS:
+        raise ValueError(f"no collision detector {detector_type!r}; they are {', '.join(map(str, DETECTORS))}")
+    handle.set_collision_detector(DETECTORS[detector_type])
 
 
 def _collision_detector(handle: WorldHandle) -> int:
     """The detector: 0 (DART) 1 (FCL) 2 (Bullet) 3 (ODE) 10 (native), -1 for another."""
-    return world.detector_number(handle.collision_detector())
+    return detector_number(handle.collision_detector())
 
 
 def _contacts(handle: WorldHandle) -> NDArray[np.float64]:

@@ -14,7 +14,7 @@ from pydart2.gui.context import ContextError, before_free, current_context
 from pydart2.gui.renderer import SceneRenderer
 from pydart2.gui.scene import Scene
 from pydart2.gui.shapes import add_shapenode
-from pydart2.up import up_of
+from pydart2.simulation.up import up_of
 
 if TYPE_CHECKING:
     from pydart2.contact import Contact

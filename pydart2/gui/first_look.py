@@ -14,7 +14,7 @@ from pydart2.gui.camera import Camera
 from pydart2.gui.camera_control import FIELD_OF_VIEW
 from pydart2.gui.placing import boxes
 from pydart2.gui.scene import NOBODY, Item, Scene, from_world
-from pydart2.up import Axis, is_z_up
+from pydart2.simulation.up import Axis, is_z_up
 
 if TYPE_CHECKING:
     from pydart2.world import World

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from pydart2.gui.camera import Camera, as_camera
 from pydart2.gui.first_look import look, middle_of
-from pydart2.up import up_of
+from pydart2.simulation.up import up_of
 
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode

@@ -14,7 +14,7 @@ from pydart2.gui.geometry import Mesh
 from pydart2.gui.placing import between as between
 from pydart2.gui.placing import grid_of
 from pydart2.gui.shapes import add_shapenode
-from pydart2.up import up_of
+from pydart2.simulation.up import up_of
 
 if TYPE_CHECKING:
     from pydart2.joint import Joint

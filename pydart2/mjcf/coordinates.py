@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2.building.poses import rotation
+from pydart2.poses import rotation
 
 _Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from pydart2._native import BodyNodeHandle
 from pydart2.building import solids
 from pydart2.building.bodies import ShapeOptions, attach
-from pydart2.building.poses import pose
 from pydart2.mjcf.compile import Compiled
+from pydart2.poses import pose
 
 _Array = NDArray[np.float64]
 GEOMS = ("plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf")  # mjtGeom

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pydart2._native import BodyNodeHandle, JointHandle, WorldHandle
-from pydart2.building.poses import pose, rotation
 from pydart2.mjcf.compile import Compiled
 from pydart2.mjcf.coordinates import Coordinates, JointPlace
 from pydart2.mjcf.geoms import add_geoms, add_sites
+from pydart2.poses import pose, rotation
 
 _Array = NDArray[np.float64]
 KINDS = ("free", "ball", "slide", "hinge")  # mjtJoint

@@ -13,7 +13,7 @@ from pydart2.gui import geometry
 from pydart2.gui.placing import between, boxes
 from pydart2.gui.scene import Item, Scene, Show, from_world
 from pydart2.gui.shapes import add_shapenode
-from pydart2.up import up_of
+from pydart2.simulation.up import up_of
 
 from .worlds import GEOMETRIES, body, box, primitives, sphere, textured_board, world_of
 

@@ -12,7 +12,7 @@ import pytest
 
 import pydart2 as pydart
 from pydart2.building import solids
-from pydart2.building.poses import between, pose, rotation
+from pydart2.poses import between, pose, rotation
 
 QUARTER = (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5))  # about z
 

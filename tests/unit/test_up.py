@@ -13,7 +13,7 @@ import pydart2
 from physics.models import creature, save_skeleton
 from pydart2.gui.first_look import open_world
 from pydart2.gui.scene import from_world
-from pydart2.up import up_of
+from pydart2.simulation.up import up_of
 
 ATLAS = "sdf/atlas/atlas_v3_no_head.sdf"
 X, Y, Z = np.eye(3)

@@ -14,7 +14,7 @@ from pydart2.gui.opengl.renderer import Renderer
 from pydart2.gui.renderer import Style, blend
 from pydart2.gui.scene import Show
 from pydart2.gui.trackball import Trackball
-from pydart2.up import up_of
+from pydart2.simulation.up import up_of
 
 
 class OpenGLScene:

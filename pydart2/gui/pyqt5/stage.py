@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pydart2.gui import drawing
 from pydart2.gui.overlays import Overlays
 from pydart2.gui.runtime import Runtime
-from pydart2.up import unit, up_of
+from pydart2.simulation.up import unit, up_of
 from pydart2.world import World
 
 

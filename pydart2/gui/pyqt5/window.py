@@ -24,7 +24,7 @@ from pydart2.gui.pyqt5.scripted import Scripted
 from pydart2.gui.pyqt5.side_panel import SidePanel
 from pydart2.gui.pyqt5.status import StatusView
 from pydart2.gui.runtime import Runtime
-from pydart2.up import up_of
+from pydart2.simulation.up import up_of
 
 SECONDS = "PYDART2_VIEWER_SECONDS"
 _PICTURE_SIZE = (1280, 720)

@@ -39,14 +39,18 @@ void WorldHandle::ignore_pairs(const MatrixIn& a, const MatrixIn& b, bool ignore
 {
   auto& record = to_change();
   std::vector<std::pair<BodyNode*, BodyNode*>> named;
-  std::set<std::pair<BodyNode*, BodyNode*>> seen;
-  const auto others = bodies_of(record, b);
-  for (auto* one : bodies_of(record, a))
-    for (auto* other : others)
-      if (const auto pair = std::minmax(one, other); one != other && seen.insert(pair).second) // one for both orders
-        named.push_back(pair);
+  std::set<std::pair<BodyNode*, BodyNode*>> seen; // by address, so that a pair has one place in both orders
+  const auto ones = bodies_of(record, a), others = bodies_of(record, b);
+  for (std::size_t i = 0; i < ones.size(); ++i)
+    for (std::size_t j = 0; j < others.size(); ++j)
+      if (ones[i] != others[j] && seen.insert(std::minmax(ones[i], others[j])).second) {
+        // The body that the world has first is the first of the pair, whichever was named first: models compare so.
+        const bool in_order = std::lexicographical_compare(
+            a.data + 2 * i, a.data + 2 * i + 2, b.data + 2 * j, b.data + 2 * j + 2);
+        named.emplace_back(in_order ? ones[i] : others[j], in_order ? others[j] : ones[i]);
+      }
   auto& pairs = record.ignored_pairs;
-  const auto is_named = [&](const auto& pair) { return seen.count(pair) != 0; };
+  const auto is_named = [&](const auto& pair) { return seen.count(std::minmax(pair.first, pair.second)) != 0; };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_named), pairs.end());
   if (ignore)
     pairs.insert(pairs.end(), named.begin(), named.end());

@@ -6,17 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pydart2._native import WorldHandle
+from pydart2.simulation.part import WorldPart
 
 if TYPE_CHECKING:
     from pydart2.skeleton import Skeleton
 
 
-class WorldSleeping:
+class WorldSleeping(WorldPart):
     """What puts the skeletons of a `World` to sleep."""
-
-    _handle: WorldHandle
-    skeletons: list[Skeleton]
 
     def set_sleeping(
         self, enable: bool = True, *, linear_speed: float = 5e-3, angular_speed: float = 1e-2, seconds: float = 0.5

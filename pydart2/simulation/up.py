@@ -14,11 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pydart2.errors import NameNotFound
+from pydart2.simulation.part import WorldPart
 
 if TYPE_CHECKING:
-    from pydart2._native import WorldHandle
     from pydart2.loading.readable import Readable
-    from pydart2.skeleton import Skeleton
 
 Axis = Literal["x", "y", "z"]
 Array = NDArray[np.float64]
@@ -48,16 +47,12 @@ def unit(axis: Axis) -> Array:
     return vector
 
 
-class Upright:
+class Upright(WorldPart):
     """The part of World that knows which way is up."""
 
-    _handle: WorldHandle
     _up: Array | None = None
     _has_gravity: bool = False  # whether it is somebody's, not what every world has at first
     _said_up: bool = False
-
-    if TYPE_CHECKING:  # what World has
-        skeletons: list[Skeleton]
 
     @property
     def up(self) -> Array:

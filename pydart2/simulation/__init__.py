@@ -1,0 +1,1 @@
+"""What a World is made of: a file for each subject."""
