@@ -9,25 +9,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import contact_forces
-from pydart2.assignment import Assignable
+from pydart2.alias import Alias
 from pydart2.building.bodies import BodyBuilding
-from pydart2.frames import Frame
+from pydart2.multibody.motion import Motion
+from pydart2.multibody.part import kept
 from pydart2.shapenode import ShapeNode
-from pydart2.state import part_of
 
 if TYPE_CHECKING:
-    from pydart2._native import BodyNodeHandle
     from pydart2.dof import Dof
     from pydart2.joint import Joint
     from pydart2.marker import Marker
     from pydart2.skeleton import Skeleton
-    from pydart2.world import World
 
 _log = logging.getLogger("pydart2")
 _ORIGIN = (0.0, 0.0, 0.0)
 
 
-class BodyNode(Frame, BodyBuilding, Assignable):
+class BodyNode(Motion, BodyBuilding):
     """A rigid or soft body of a skeleton.
 
     Jacobians have the angular rows before the linear ones. ``full=True`` gives a column to each dof of the skeleton,
@@ -50,13 +48,15 @@ class BodyNode(Frame, BodyBuilding, Assignable):
     shapenodes : list of ShapeNode
     """
 
+    _LIST = "bodynodes"
+
     parent_bodynode: BodyNode | None
     parent_joint: Joint
 
     def __init__(self, _skel: Skeleton, _id: int) -> None:
         self.skeleton = _skel
         self._id = _id
-        self._handle: BodyNodeHandle = _skel._handle.bodynode(_id)
+        self._handle = _skel._handle.bodynode(_id)
         self.name = self._handle.name()
         self.child_bodynodes: list[BodyNode] = []
         self.child_joints: list[Joint] = []
@@ -64,10 +64,6 @@ class BodyNode(Frame, BodyBuilding, Assignable):
         self.markers: list[Marker] = []
         self.shapenodes: list[ShapeNode] = []
         self._arrows: list[tuple[int, NDArray[np.float64], NDArray[np.float64]]] = []
-
-    def _take(self, other: BodyNode) -> None:
-        """Be the part that a new object is for: the tree has changed, and the old handle is refused."""
-        self._id, self._handle = other._id, other._handle
 
     def build(self) -> None:
         """Link to the other parts of the skeleton."""
@@ -80,33 +76,8 @@ class BodyNode(Frame, BodyBuilding, Assignable):
         self.dependent_dofs = [skel.dofs[handle.dependent_dof(i)] for i in range(self.num_dependent_dofs())]
         before = {node.name: node for node in self.shapenodes}
         nodes = [ShapeNode(self, i) for i in range(self.num_shapenodes())]
-        self.shapenodes = [before[node.name]._take(node) if node.name in before else node for node in nodes]
+        self.shapenodes = [kept(before, node) for node in nodes]
         self.markers = []  # each marker adds itself
-
-    @property
-    def id(self) -> int:
-        """Index in the skeleton."""
-        return self._id
-
-    @property
-    def skel(self) -> Skeleton:
-        """The skeleton."""
-        return self.skeleton
-
-    @property
-    def world(self) -> World:
-        """The world."""
-        return self.skeleton.world
-
-    @property
-    def wid(self) -> int:
-        """Id of the world."""
-        return self.skeleton.world.id
-
-    @property
-    def skid(self) -> int:
-        """Id of the skeleton."""
-        return self.skeleton.id
 
     # Structure
 
@@ -168,10 +139,7 @@ class BodyNode(Frame, BodyBuilding, Assignable):
         """Set the mass, kg, > 0. The moment of inertia stays as it is."""
         self._handle.set_mass(mass)
 
-    @property
-    def m(self) -> float:
-        """Mass, kg."""
-        return self._handle.mass()
+    m = Alias(mass)
 
     def inertia(self) -> NDArray[np.float64]:
         """Moment of inertia about the COM, body axes, shape (3, 3), kg m²."""
@@ -193,10 +161,7 @@ class BodyNode(Frame, BodyBuilding, Assignable):
         """Set the moment of inertia about the COM, body axes, kg m²."""
         self._handle.set_inertia([[Ixx, Ixy, Ixz], [Ixy, Iyy, Iyz], [Ixz, Iyz, Izz]])
 
-    @property
-    def I(self) -> NDArray[np.float64]:  # noqa: E743, N802 (the field's name)
-        """Moment of inertia about the COM, body axes, shape (3, 3), kg m²."""
-        return self._handle.inertia()
+    I = Alias(inertia)  # noqa: E741 (the field's name)
 
     def local_com(self) -> NDArray[np.float64]:
         """Centre of mass in the body frame, shape (3,), m."""
@@ -223,98 +188,6 @@ class BodyNode(Frame, BodyBuilding, Assignable):
         """Set the restitution coefficient of all its colliding shapes, >= 0."""
         if not self._handle.set_restitution_coeff(coeff):
             _log.warning("%s has no colliding shape, so no restitution to set", self)
-
-    # Pose and motion
-
-    def transform(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """Pose of the body frame in the world, shape (4, 4), m."""
-        return self._handle.transform(out)
-
-    def world_transform(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """Pose of the body frame in the world, shape (4, 4), m."""
-        return self._handle.transform(out)
-
-    @property
-    def T(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
-        """Pose of the body frame in the world, shape (4, 4), m."""
-        return self._handle.transform(None)
-
-    def relative_transform(self) -> NDArray[np.float64]:
-        """Pose of the body frame in the parent body, shape (4, 4), m."""
-        return self._handle.relative_transform()
-
-    def to_world(self, x: ArrayLike | None = None) -> NDArray[np.float64]:
-        """Where the point `x` of the body frame is in the world, shape (3,), m."""
-        return self._handle.to_world(x)
-
-    def to_local(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Where the point `x` of the world is in the body frame, shape (3,), m."""
-        return self._handle.to_local(x)
-
-    def com(self) -> NDArray[np.float64]:
-        """Centre of mass in the world, shape (3,), m."""
-        return self._handle.com()
-
-    @property
-    def C(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
-        """Centre of mass in the world, shape (3,), m."""
-        return self._handle.com()
-
-    def com_linear_velocity(self) -> NDArray[np.float64]:
-        """Velocity of the centre of mass, world frame, shape (3,), m/s."""
-        return self._handle.com_linear_velocity()
-
-    @property
-    def dC(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
-        """Velocity of the centre of mass, world frame, shape (3,), m/s."""
-        return self._handle.com_linear_velocity()
-
-    def com_linear_acceleration(self) -> NDArray[np.float64]:
-        """Acceleration of the centre of mass, world frame, shape (3,), m/s²."""
-        return self._handle.com_linear_acceleration()
-
-    def com_spatial_velocity(self) -> NDArray[np.float64]:
-        """Angular (rad/s) and linear (m/s) velocity of the centre of mass, body coordinates, shape (6,)."""
-        return self._handle.com_spatial_velocity()
-
-    def com_spatial_acceleration(self) -> NDArray[np.float64]:
-        """Angular (rad/s²) and linear (m/s²) acceleration of the centre of mass, body coordinates, shape (6,)."""
-        return self._handle.com_spatial_acceleration()
-
-    def world_linear_velocity(self, offset: ArrayLike | None = None) -> NDArray[np.float64]:
-        """Velocity of a point, world frame, shape (3,), m/s."""
-        return self._handle.linear_velocity(offset)
-
-    def world_angular_velocity(self) -> NDArray[np.float64]:
-        """Angular velocity, world frame, shape (3,), rad/s."""
-        return self._handle.angular_velocity()
-
-    def world_spatial_velocity(self, offset: ArrayLike | None = None) -> NDArray[np.float64]:
-        """Angular (rad/s) and linear (m/s) velocity of a point, world frame, shape (6,)."""
-        return self._handle.spatial_velocity(offset)
-
-    def world_linear_acceleration(self, offset: ArrayLike | None = None) -> NDArray[np.float64]:
-        """Acceleration of a point, world frame, shape (3,), m/s²."""
-        return self._handle.linear_acceleration(offset)
-
-    def world_angular_acceleration(self) -> NDArray[np.float64]:
-        """Angular acceleration, world frame, shape (3,), rad/s²."""
-        return self._handle.angular_acceleration()
-
-    def world_spatial_acceleration(self, offset: ArrayLike | None = None) -> NDArray[np.float64]:
-        """Spatial acceleration (Featherstone's) of a point, world frame, angular then linear, shape (6,).
-
-        Its linear part lacks the term ``angular velocity × velocity`` of world_linear_acceleration().
-        """
-        return self._handle.spatial_acceleration(offset)
-
-    def linear_momentum(self) -> NDArray[np.float64]:
-        """Linear momentum as the engine gives it, body coordinates, shape (3,), kg m/s."""
-        return self._handle.linear_momentum()
-
-    def angular_momentum(self) -> NDArray[np.float64]:
-        """Angular momentum about the body's origin as the engine gives it, body coordinates, shape (3,), kg m²/s."""
-        return self._handle.angular_momentum()
 
     # Contacts of the last step
 
@@ -398,66 +271,6 @@ class BodyNode(Frame, BodyBuilding, Assignable):
         vector = self.T[:3, :3] @ np.asarray(force) if force_local else np.array(force, dtype=float)
         frame = self.world.frame
         self._arrows = [arrow for arrow in self._arrows if arrow[0] == frame] + [(frame, point, vector)]
-
-    # Jacobians
-
-    def jacobian(
-        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
-        """Jacobian of a point in body coordinates, shape (6, n), dimensionless rows and then m/rad."""
-        return self._handle.jacobian(offset, full, out)
-
-    def world_jacobian(
-        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
-        """Jacobian of a point in world coordinates, shape (6, n), dimensionless rows and then m/rad."""
-        return self._handle.world_jacobian(offset, full, out)
-
-    def linear_jacobian(
-        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
-        """Linear Jacobian of a point in world coordinates, shape (3, n): ``J @ dq`` is its velocity in m/s."""
-        return self._handle.linear_jacobian(offset, full, out)
-
-    @property
-    def J(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
-        """Linear Jacobian of the origin in world coordinates, shape (3, ndofs), m/rad or 1."""
-        return self._handle.linear_jacobian(None, True, None)
-
-    def angular_jacobian(self, full: bool = True, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """Angular Jacobian in world coordinates, shape (3, n): times dq it is the angular velocity in rad/s."""
-        return self._handle.angular_jacobian(full, out)
-
-    def linear_jacobian_deriv(
-        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
-        """Time derivative of linear_jacobian(), shape (3, n)."""
-        return self._handle.linear_jacobian_deriv(offset, full, out)
-
-    @property
-    def dJ(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
-        """Time derivative of J, shape (3, ndofs)."""
-        return self._handle.linear_jacobian_deriv(None, True, None)
-
-    def world_jacobian_classic_deriv(
-        self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
-        """Time derivative of world_jacobian(), shape (6, n): times dq, what ``J ddq`` lacks of the acceleration."""
-        return self._handle.world_jacobian_classic_deriv(offset, full, out)
-
-    def angular_jacobian_deriv(self, full: bool = True, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """Time derivative of angular_jacobian(), shape (3, n)."""
-        return self._handle.angular_jacobian_deriv(full, out)
-
-    def expand_jacobian(self, jacobian: ArrayLike) -> NDArray[np.float64]:
-        """A Jacobian over the dependent dofs, shape (r, n), with zeros for the others, shape (r, ndofs); units stay."""
-        dependent = np.asarray(jacobian, dtype=float)
-        full = np.zeros((dependent.shape[0], self.skeleton.ndofs))
-        full[:, [dof.id for dof in self.dependent_dofs]] = dependent
-        return full
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return part_of, (self.skeleton, "bodynodes", self._id)
 
     def __repr__(self) -> str:
         return f"[BodyNode({self.id}): {self.name}]"

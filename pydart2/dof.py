@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pydart2.assignment import Assignable
-from pydart2.state import part_of
+from pydart2.multibody.part import Part
 
 if TYPE_CHECKING:
+    from pydart2._native import DofHandle
     from pydart2.joint import Joint
     from pydart2.skeleton import Skeleton
 
 
-class Dof(Assignable):
+class Dof(Part):
     """One degree of freedom of a skeleton: rad, rad/s, N m for a rotation; m, m/s, N for a translation.
 
     Attributes
@@ -24,37 +24,21 @@ class Dof(Assignable):
     joint : Joint
     """
 
+    _LIST = "dofs"
+
     joint: Joint
+    _handle: DofHandle
 
     def __init__(self, _skeleton: Skeleton, _id: int) -> None:
         self.skeleton = _skeleton
-        self.id = _id
+        self._id = _id
         self._handle = _skeleton._handle.dof(_id)
         self.name = self._handle.name()
-
-    def _take(self, other: Dof) -> None:
-        """Be the part that a new object is for: the tree has changed, and the old handle is refused."""
-        self.id, self._handle = other.id, other._handle
-
-    @property
-    def skel(self) -> Skeleton:
-        """The skeleton."""
-        return self.skeleton
-
-    @property
-    def wid(self) -> int:
-        """Id of the world."""
-        return self.skeleton.world.id
-
-    @property
-    def skid(self) -> int:
-        """Id of the skeleton."""
-        return self.skeleton.id
 
     @property
     def index(self) -> int:
         """Index in the skeleton."""
-        return self.id
+        return self._id
 
     def index_in_skeleton(self) -> int:
         """Index in the skeleton, that is, in q."""
@@ -230,9 +214,6 @@ class Dof(Assignable):
     def set_constraint_impulse(self, _friction: float) -> None:
         """Set the constraint impulse, N m s or N s."""
         self._handle.set_constraint_impulse(_friction)
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return part_of, (self.skeleton, "dofs", self.id)
 
     def __repr__(self) -> str:
         return f"[Dof({self.id}): {self.name}]"

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2.assignment import Assignable
-from pydart2.state import part_of
+from pydart2.multibody.part import Part
 
 if TYPE_CHECKING:
+    from pydart2._native import JointHandle
     from pydart2.bodynode import BodyNode
     from pydart2.dof import Dof
     from pydart2.skeleton import Skeleton
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _ACTUATORS = ("FORCE", "PASSIVE", "SERVO", "ACCELERATION", "VELOCITY", "LOCKED", "MIMIC")
 
 
-class Joint(Assignable):
+class Joint(Part):
     """A joint of any type, between a body and its parent.
 
     Attributes
@@ -34,6 +34,8 @@ class Joint(Assignable):
     dofs : list of Dof
     """
 
+    _LIST = "joints"
+
     FORCE: ClassVar[int] = 0
     PASSIVE: ClassVar[int] = 1
     SERVO: ClassVar[int] = 2
@@ -45,16 +47,13 @@ class Joint(Assignable):
     parent_bodynode: BodyNode | None
     child_bodynode: BodyNode
     dofs: list[Dof]
+    _handle: JointHandle
 
     def __init__(self, _skeleton: Skeleton, _id: int) -> None:
         self.skeleton = _skeleton
-        self.id = _id
+        self._id = _id
         self._handle = _skeleton._handle.joint(_id)
         self.name = self._handle.name()
-
-    def _take(self, other: Joint) -> None:
-        """Be the part that a new object is for: the tree has changed, and the old handle is refused."""
-        self.id, self._handle = other.id, other._handle
 
     def build(self) -> None:
         """Link to the bodies and dofs."""
@@ -65,21 +64,6 @@ class Joint(Assignable):
         self.dofs = [self.skeleton.dofs[self._handle.dof(i)] for i in range(self.num_dofs())]
         for dof in self.dofs:
             dof.joint = self
-
-    @property
-    def skel(self) -> Skeleton:
-        """The skeleton."""
-        return self.skeleton
-
-    @property
-    def wid(self) -> int:
-        """Id of the world."""
-        return self.skeleton.world.id
-
-    @property
-    def skid(self) -> int:
-        """Id of the skeleton."""
-        return self.skeleton.id
 
     def wrench(self) -> NDArray[np.float64]:
         """Moment (N m) and force (N) through the joint on its child body in the last step, shape (6,).
@@ -251,9 +235,6 @@ class Joint(Assignable):
             raise IndexError(f"joint {self.name!r} has {len(self.dofs)} dofs, so no dof {index}")
         return self.dofs[index]
 
-    def __reduce__(self) -> tuple[object, ...]:
-        return part_of, (self.skeleton, "joints", self.id)
-
     def __repr__(self) -> str:
         return f"[{type(self).__name__}({self.id}): {self.name}]"
 
@@ -262,9 +243,7 @@ class WeldJoint(Joint):
     """No motion."""
 
 
-class RevoluteJoint(Joint):
-    """Rotation about an axis."""
-
+class _WithAxis(Joint):
     def axis(self) -> NDArray[np.float64]:
         """Unit axis in the joint's frame, shape (3,)."""
         return self._handle.axis()
@@ -272,6 +251,10 @@ class RevoluteJoint(Joint):
     def set_axis(self, axis: ArrayLike) -> None:
         """Set the axis in the joint's frame, shape (3,); it is made a unit vector."""
         self._handle.set_axis(axis)
+
+
+class RevoluteJoint(_WithAxis):
+    """Rotation about an axis."""
 
     def axis_in_world_frame(self) -> NDArray[np.float64]:
         """Unit axis in the world, shape (3,)."""
@@ -279,28 +262,12 @@ class RevoluteJoint(Joint):
         return axis
 
 
-class PrismaticJoint(Joint):
+class PrismaticJoint(_WithAxis):
     """Translation along an axis."""
 
-    def axis(self) -> NDArray[np.float64]:
-        """Unit axis in the joint's frame, shape (3,)."""
-        return self._handle.axis()
 
-    def set_axis(self, axis: ArrayLike) -> None:
-        """Set the axis in the joint's frame, shape (3,); it is made a unit vector."""
-        self._handle.set_axis(axis)
-
-
-class ScrewJoint(Joint):
+class ScrewJoint(_WithAxis):
     """Rotation about an axis, with translation along it."""
-
-    def axis(self) -> NDArray[np.float64]:
-        """Unit axis in the joint's frame, shape (3,)."""
-        return self._handle.axis()
-
-    def set_axis(self, axis: ArrayLike) -> None:
-        """Set the axis in the joint's frame, shape (3,); it is made a unit vector."""
-        self._handle.set_axis(axis)
 
     def pitch(self) -> float:
         """Translation per turn, m."""

@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import screen
-from pydart2.assignment import Assignable
-from pydart2.state import part_of
+from pydart2.alias import Alias
+from pydart2.multibody.part import Part
 
 if TYPE_CHECKING:
+    from pydart2._native import MarkerHandle
     from pydart2.bodynode import BodyNode
     from pydart2.skeleton import Skeleton
 
 
-class Marker(Assignable):
+class Marker(Part):
     """A point that is fixed to a body, as of a motion capture suit.
 
     Attributes
@@ -30,11 +31,14 @@ class Marker(Assignable):
     bodynode : BodyNode
     """
 
+    _LIST = "markers"
+
     bodynode: BodyNode
+    _handle: MarkerHandle
 
     def __init__(self, _skeleton: Skeleton, _id: int) -> None:
         self.skeleton = _skeleton
-        self.id = _id
+        self._id = _id
         self.name = f"M{_id:04d}"
         self._handle = _skeleton._handle.marker(_id)
         self.label = self._handle.name()
@@ -43,26 +47,6 @@ class Marker(Assignable):
         """Link to the body."""
         self.bodynode = self.skeleton.bodynodes[self._handle.bodynode()]
         self.bodynode.markers.append(self)
-
-    @property
-    def skel(self) -> Skeleton:
-        """The skeleton."""
-        return self.skeleton
-
-    @property
-    def wid(self) -> int:
-        """Id of the world."""
-        return self.skeleton.world.id
-
-    @property
-    def skid(self) -> int:
-        """Id of the skeleton."""
-        return self.skeleton.id
-
-    @property
-    def p(self) -> NDArray[np.float64]:
-        """Position in the world, shape (3,), m."""
-        return self._handle.world_position()
 
     def local_position(self) -> NDArray[np.float64]:
         """Position in the body frame, shape (3,), m."""
@@ -76,12 +60,11 @@ class Marker(Assignable):
         """Position in the world, shape (3,), m."""
         return self._handle.world_position()
 
+    p = Alias(world_position)
+
     def render(self) -> None:
         """Draw it with the current OpenGL context and matrices."""
         screen.draw("marker", self)
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return part_of, (self.skeleton, "markers", self.id)
 
     def __repr__(self) -> str:
         return f"[Marker({self.id})]"

@@ -38,7 +38,7 @@ _NAMES = {
         world_spatial_velocity world_transform
     """,
     "Dof": """
-        constraint_impulse coulomb_friction damping_coefficient has_position_limit index index_in_joint
+        constraint_impulse coulomb_friction damping_coefficient has_position_limit id index index_in_joint
         index_in_skeleton index_in_tree initial_position initial_velocity position position_lower_limit
         position_upper_limit rest_position set_constraint_impulse set_coulomb_friction set_damping_coefficient
         set_initial_position set_initial_velocity set_position set_position_lower_limit set_position_upper_limit
@@ -48,7 +48,7 @@ _NAMES = {
     "Joint": """
         acceleration actuator_type axis axis1 axis1_in_world_frame axis2 axis2_in_world_frame axis_in_world_frame
         axis_order build child_body_node_id coulomb_friction damping_coefficient get_local_transform
-        get_world_frame_after_transform get_world_frame_before_transform has_position_limit is_dynamic is_kinematic
+        get_world_frame_after_transform get_world_frame_before_transform has_position_limit id is_dynamic is_kinematic
         is_position_limit_enforced num_dofs orientation_in_world_frame parent_body_node_id position
         position_in_world_frame position_lower_limit position_upper_limit rest_position set_acceleration
         set_actuator_type set_axis set_axis1 set_axis2 set_axis_order set_coulomb_friction set_damping_coefficient
@@ -58,7 +58,7 @@ _NAMES = {
         velocity wid
     """,
     "Marker": """
-        build local_position p render set_local_position skel skid wid world_position
+        build id local_position p render set_local_position skel skid wid world_position
     """,
 }
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import screen
+from pydart2.multibody.part import BodyPart
 
 if TYPE_CHECKING:
     from pydart2._native import ShapeHandle
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from pydart2.skeleton import Skeleton
 
 
-class Shape:
+class Shape(BodyPart):
     """A shape of any kind.
 
     Attributes
@@ -34,31 +35,12 @@ class Shape:
         self.shapenode = _shapenode
         self.bodynode: BodyNode = _shapenode.bodynode
         self.skeleton: Skeleton = _shapenode.skeleton
-        self.id = _shapenode.id
         self._handle: ShapeHandle = _shapenode._handle.shape()
 
-    def build(self) -> None:
-        """Nothing to do; kept for callers of the original."""
-
     @property
-    def skel(self) -> Skeleton:
-        """The skeleton."""
-        return self.skeleton
-
-    @property
-    def wid(self) -> int:
-        """Id of the world."""
-        return self.skeleton.world.id
-
-    @property
-    def skid(self) -> int:
-        """Id of the skeleton."""
-        return self.skeleton.id
-
-    @property
-    def bid(self) -> int:
-        """Id of the body."""
-        return self.bodynode.id
+    def id(self) -> int:
+        """Index of its node in the body."""
+        return self.shapenode.id
 
     def volume(self) -> float:
         """Volume, m³."""

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import logging
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.multibody.part import BodyPart
 from pydart2.shape import Shape, create_shape
-from pydart2.state import part_of
 
 if TYPE_CHECKING:
     from pydart2._native import ShapeNodeHandle
     from pydart2.bodynode import BodyNode
-    from pydart2.skeleton import Skeleton
 
 _log = logging.getLogger("pydart2")
 
 
-class ShapeNode:
+class ShapeNode(BodyPart):
     """A shape on a body; it is drawn, collides, or both. SKEL files make one node for each purpose.
 
     Attributes
@@ -32,45 +31,23 @@ class ShapeNode:
     shape : Shape or None
     """
 
+    _LIST = "shapenodes"
+
     def __init__(self, _bodynode: BodyNode, _id: int) -> None:
         self.bodynode = _bodynode
         self.skeleton = _bodynode.skeleton
-        self.id = _id
+        self._id = _id
         self._handle: ShapeNodeHandle = _bodynode._handle.shapenode(_id)
         self.name = self._handle.name()
         self.shape: Shape | None = create_shape(self)
 
-    def _take(self, other: ShapeNode) -> ShapeNode:
-        """Be the node that a new object is for: the tree has changed, and the old handles are refused."""
-        self.id, self._handle = other.id, other._handle
+    def _take(self, other: Self) -> None:
+        """Be the node that a new object is for, and its shape that of the other's."""
+        super()._take(other)
         if self.shape is not None and other.shape is not None:
             self.shape._handle = other.shape._handle
         else:
             self.shape = other.shape
-        return self
-
-    def build(self) -> None:
-        """Nothing to do; kept for callers of the original."""
-
-    @property
-    def skel(self) -> Skeleton:
-        """The skeleton."""
-        return self.skeleton
-
-    @property
-    def wid(self) -> int:
-        """Id of the world."""
-        return self.skeleton.world.id
-
-    @property
-    def skid(self) -> int:
-        """Id of the skeleton."""
-        return self.skeleton.id
-
-    @property
-    def bid(self) -> int:
-        """Id of the body."""
-        return self.bodynode.id
 
     def has_visual_aspect(self) -> bool:
         """Whether it is drawn."""
@@ -110,9 +87,6 @@ class ShapeNode:
     def world_transform(self) -> NDArray[np.float64]:
         """Pose of the shape in the world, shape (4, 4), m."""
         return self._handle.world_transform()
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return part_of, (self.bodynode, "shapenodes", self.id)
 
     def __repr__(self) -> str:
         return f"[ShapeNode({self.bodynode.id}:{self.id})]"

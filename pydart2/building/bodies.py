@@ -150,7 +150,7 @@ class BodyBuilding:
         self._handle.remove_shape(shape.id)
         self.shapenodes.remove(shape)
         for i, other in enumerate(self.shapenodes):
-            other.id = i
+            other._id = i
 
     def _add(self, solid: solids.Solid, options: ShapeOptions) -> ShapeNode:
         node = ShapeNode(self, attach(self._handle, solid, options))  # type: ignore[arg-type]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from pydart2.assignment import Assignable
 from pydart2.state import part_of
@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
     from pydart2.skeleton import Skeleton
     from pydart2.world import World
+
+
+P = TypeVar("P", bound="Part")
 
 
 class Part(Assignable):
@@ -25,6 +28,7 @@ class Part(Assignable):
     _LIST: ClassVar[str]
 
     skeleton: Skeleton
+    name: str
     _handle: Any
     _id: int
 
@@ -59,6 +63,15 @@ class Part(Assignable):
 
     def __reduce__(self) -> tuple[object, ...]:
         return part_of, (self.skeleton, self._LIST, self._id)
+
+
+def kept(before: dict[str, P], now: P) -> P:
+    """The object that there was for this part of the engine's, taken again; `now` itself if there was none."""
+    old = before.get(now.name)
+    if old is None or type(old) is not type(now):
+        return now
+    old._take(now)
+    return old
 
 
 class BodyPart(Part):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from pydart2.errors import NameNotFound
 from pydart2.indexing import Names
 from pydart2.joint import Joint, create_joint
 from pydart2.marker import Marker
+from pydart2.multibody.part import P, kept
 from pydart2.skel_vector import SkelVector
 from pydart2.softbody import SoftBodyNode
 
@@ -22,17 +23,6 @@ if TYPE_CHECKING:
     from pydart2._native import SkeletonHandle
     from pydart2.skeleton import Skeleton
     from pydart2.world import World
-
-Part = TypeVar("Part", BodyNode, Joint, Dof)
-
-
-def _kept(before: dict[str, Part], now: Part) -> Part:
-    """The object that there was for this part of the engine's, taken again; `now` itself if there was none."""
-    old = before.get(now.name)
-    if old is None or type(old) is not type(now):
-        return now
-    old._take(now)
-    return old
 
 
 class Structure:
@@ -58,11 +48,11 @@ class Structure:
         joints: dict[str, Joint] = getattr(self, "name_to_joint", {})
         bodies: dict[str, BodyNode] = getattr(self, "name_to_body", {})
         dofs = {dof.name: dof for joint in joints.values() for dof in joint.dofs if dof.joint is joint}
-        self.joints = [_kept(joints, create_joint(skel, i)) for i in range(handle.num_joints())]
-        kept = set(map(id, self.joints))
-        dofs = {name: dof for name, dof in dofs.items() if id(dof.joint) in kept}
-        self.dofs = [_kept(dofs, Dof(skel, i)) for i in range(handle.num_dofs())]
-        self.bodynodes = [_kept(bodies, self._make_body(i)) for i in range(handle.num_bodynodes())]
+        self.joints = [kept(joints, create_joint(skel, i)) for i in range(handle.num_joints())]
+        still = set(map(id, self.joints))
+        dofs = {name: dof for name, dof in dofs.items() if id(dof.joint) in still}
+        self.dofs = [kept(dofs, Dof(skel, i)) for i in range(handle.num_dofs())]
+        self.bodynodes = [kept(bodies, self._make_body(i)) for i in range(handle.num_bodynodes())]
         self.markers = [Marker(skel, i) for i in range(handle.num_markers())]
         self._refresh_names()
         for parts in (self.joints, self.bodynodes, self.markers):
@@ -124,7 +114,7 @@ class Structure:
         """A dof by name or index; NameNotFound or IndexError if there is none."""
         return self._find("dof", query, self.dofs, self.name_to_dof)
 
-    def _find(self, kind: str, query: str | int, parts: list[Part], by_name: dict[str, Part]) -> Part:
+    def _find(self, kind: str, query: str | int, parts: list[P], by_name: dict[str, P]) -> P:
         if isinstance(query, str):
             if query not in by_name:
                 raise NameNotFound(kind, query, f"skeleton {self.name!r}", by_name)
