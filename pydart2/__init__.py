@@ -129,4 +129,8 @@ def __getattr__(name: str) -> object:
         from importlib import import_module
 
         return import_module(f"pydart2.{name}")
-    raise AttributeError(f"module 'pydart2' has no attribute {name!r}")
+    from pydart2.habits import in_package
+
+    found = in_package(name)
+    hint = "" if found is None or name[:1] == "_" else f"; here that is {found}"
+    raise AttributeError(f"module 'pydart2' has no attribute {name!r}{hint}")

@@ -6,8 +6,9 @@ import inspect
 import logging
 from collections.abc import Callable, Iterator
 from functools import cache
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from pydart2.habits import answer, here
 from pydart2.original_names import ORIGINAL
 
 _log = logging.getLogger("pydart2")
@@ -41,6 +42,13 @@ class Assignable:
     def __setattr__(self, name: str, value: Any) -> None:
         if name in self._unlooked or name[:1] == "_" or _takes(self, name, value):
             object.__setattr__(self, name, value)
+
+    if not TYPE_CHECKING:  # to whom all names would be there
+
+        def __getattr__(self, name: str) -> Any:
+            if name[:1] == "_":
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=None)
+            raise AttributeError(answer(type(self), name), name=name, obj=None)  # else Python would guess too
 
 
 def _takes(owner: Assignable, name: str, value: Any) -> bool:
@@ -144,12 +152,15 @@ def _say_what_is_hidden(cls: type) -> None:
 
 
 def _say_what_is_near(cls: type, name: str) -> None:
-    """Warn of a name that is nearly one that can be set."""
+    """Warn of a name that is nearly one that can be set, or is another library's for something here."""
     if any(name in vars(base).get("__annotations__", ()) for base in cls.__mro__):
         return
     near = next((known for known in _settable(cls) if _are_near(name, known)), None)
+    other = here(cls, name)
     if near is not None:
         _log.warning("%s has no %r, which is now an attribute of your own; did you mean %r?", cls.__name__, name, near)
+    elif other is not None:
+        _log.warning("%s has no %r, which is now an attribute of your own; here that is %s", cls.__name__, name, other)
 
 
 @cache

@@ -104,6 +104,8 @@ class Batch:
     """
 
     def __init__(self, world: World, n: int, threads: int | None = None, skeleton: int = -1) -> None:
+        if not isinstance(n, (int, np.integer)):
+            raise TypeError(f"a batch is of a world and how many: Batch(world, 64), not {n!r}")
         if n < 1:
             raise ValueError(f"a batch needs one world or more, got {n}")
         self._begin([world.clone() for _ in range(n)], threads or len(os.sched_getaffinity(0)), skeleton)

@@ -51,12 +51,10 @@ class NameNotFound(KeyError, ValueError):
     """A name that is not there; says where it was looked for and the nearest name."""
 
     def __init__(self, kind: str, name: object, where: str, names: Iterable[str] = ()) -> None:
-        from difflib import get_close_matches
-
         message = f"no {kind} {name!r} in {where}"
-        nearest = get_close_matches(str(name), list(names), n=1, cutoff=0.4)
-        if nearest:
-            message += f"; did you mean {nearest[0]!r}?"
+        near = nearest(str(name), names)
+        if near is not None:
+            message += f"; did you mean {near!r}?"
         super().__init__(message)
 
     def __str__(self) -> str:
@@ -64,6 +62,16 @@ class NameNotFound(KeyError, ValueError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return _restore_name_not_found, (str(self),)
+
+
+def nearest(name: str, names: Iterable[str], cutoff: float = 0.4) -> str | None:
+    """What `name` is misspelt from, or the shortest name that it is a part of, or else what is a little like it."""
+    from difflib import get_close_matches
+
+    names = list(names)
+    longer = [known for known in names if len(name) > 2 and name.lower() in known.lower()]
+    likely, possible = (get_close_matches(name, names, n=1, cutoff=c) for c in (0.75, cutoff))
+    return next(iter([*likely, *sorted(longer, key=len), *possible]), None)
 
 
 def _restore_name_not_found(message: str) -> NameNotFound:

@@ -64,8 +64,8 @@ class TargetControl(Coordinates):
         Parameters
         ----------
         q, dq
-            Dof name → target, or all of them, shape (ndofs,): rad or m, and rad/s or m/s. With a position alone a dof
-            comes to rest there.
+            Dof name → target, a part of a vector as ``q[6:]``, or all of them, shape (ndofs,): rad or m, and rad/s or
+            m/s. With a position alone a dof comes to rest there.
         kp, kd
             Gains of these dofs: a number for all, dof name → number, or shape (ndofs,): N m/rad and N m s/rad, or N/m
             and N s/m. Default: those that they have, zero at first.
@@ -131,10 +131,14 @@ class TargetControl(Coordinates):
     def _fill(self, vector: SkelVector, values: ByName | None) -> Mask:
         """Writes values by name, or all; where it wrote."""
         written = np.zeros(len(vector), dtype=bool)
+        if isinstance(values, SkelVector) and len(values) != len(vector) and values.keys:
+            values = dict(zip(values.keys, values.tolist(), strict=True))
         if isinstance(values, Mapping):
             for name, value in values.items():
                 vector[name] = value
                 written[self.names.index(name)] = True
+        elif isinstance(values, str):
+            raise TypeError(f"targets by name are a dict, as {{{values!r}: 0.5}}")
         elif values is not None:
             whole = np.asarray(values, dtype=float)
             if whole.shape != vector.shape:

@@ -39,14 +39,14 @@ def _lines(world: World) -> Iterator[str]:
         yield repr(world)
         return
     yield (
-        f"{_count(len(skeletons), 'skeleton')}, {_count(sum(s.num_bodynodes() for s in skeletons), 'body', 'bodies')}, "
-        f"{_count(sum(s.num_dofs() for s in skeletons), 'dof')}, {_count(handle.num_contacts(), 'contact')}, "
-        f"{_count(handle.num_frames(), 'frame')}; detector {handle.collision_detector()!r}, "
+        f"{count(len(skeletons), 'skeleton')}, {count(sum(s.num_bodynodes() for s in skeletons), 'body', 'bodies')}, "
+        f"{count(sum(s.num_dofs() for s in skeletons), 'dof')}, {count(handle.num_contacts(), 'contact')}, "
+        f"{count(handle.num_frames(), 'frame')}; detector {handle.collision_detector()!r}, "
         f"solver {handle.constraint_solver()!r}"
     )
     width = max((len(skel.name) for skel in skeletons[:_MOST_ROWS]), default=0)
     for skel in skeletons[:_MOST_ROWS]:
-        parts = f"{_count(skel.num_bodynodes(), 'body', 'bodies')}, {_count(skel.num_dofs(), 'dof')}"
+        parts = f"{count(skel.num_bodynodes(), 'body', 'bodies')}, {count(skel.num_dofs(), 'dof')}"
         yield f"  {skel.id:>2} {skel.name:<{width}}  {parts}, {skel._handle.mass():g} kg"
     if len(skeletons) > _MOST_ROWS:
         yield f"  … and {len(skeletons) - _MOST_ROWS} more"
@@ -56,7 +56,8 @@ def _numbers(values: Iterable[float]) -> str:
     return "[" + ", ".join(f"{value + 0.0:.4g}" for value in values) + "]"
 
 
-def _count(n: int, one: str, many: str = "") -> str:
+def count(n: int, one: str, many: str = "") -> str:
+    """`1 body`, `2 bodies`; without `many` its s is put behind."""
     return f"{n} {one if n == 1 else many or one + 's'}"
 
 
@@ -74,7 +75,7 @@ def table_of_skeleton(skel: Skeleton) -> str:
     handle = skel._handle
     numbers = zip(*map(np.ndarray.tolist, (skel.q_lower, skel.q, skel.q_upper, skel.dq)), strict=True)
     rows = [(i, skel.dofs[i].name, *(f"{n:.4g}" for n in row)) for i, row in enumerate(numbers)]
-    kinds = f"{_count(skel.num_bodynodes(), 'body', 'bodies')}, {_count(skel.num_dofs(), 'dof')}"
+    kinds = f"{count(skel.num_bodynodes(), 'body', 'bodies')}, {count(skel.num_dofs(), 'dof')}"
     title = f"<b>{html.escape(skel.name)}</b>: {kinds}, {handle.mass():g} kg"
     return title + _table(("", "dof", "lower", "q", "upper", "dq"), rows)
 

@@ -131,6 +131,8 @@ class World(
         strict: bool = False,
     ) -> None:
         check(up)
+        if isinstance(step, (str, bytes, os.PathLike)):
+            raise TypeError(f"the time step comes first, in s: World(0.001, {step!r})")
         model = skel_path
         if model is not None:
             from pydart2.loading import Options, read_model  # a third of the time to import pydart2

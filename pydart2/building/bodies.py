@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pydart2.building import solids
+from pydart2.errors import nearest
 from pydart2.poses import pose
 from pydart2.shapenode import ShapeNode
 
@@ -77,6 +79,17 @@ class BodyOptions(TypedDict, total=False):
     friction: float
     restitution: float
     fixed: bool
+
+
+def check_options(options: Mapping[str, object], kind: type) -> None:
+    """TypeError for an option that a TypedDict does not have; says the nearest."""
+    known = dict.fromkeys(("position", "mass", *kind.__annotations__))
+    for name in options:
+        if name not in known:
+            near = nearest(name, known)
+            raise TypeError(
+                f"no option {name!r}; " + (f"did you mean {near!r}?" if near else f"there are {', '.join(known)}")
+            )
 
 
 class BodyBuilding:
@@ -153,6 +166,7 @@ class BodyBuilding:
             other._id = i
 
     def _add(self, solid: solids.Solid, options: ShapeOptions) -> ShapeNode:
+        check_options(options, ShapeOptions)
         node = ShapeNode(self, attach(self._handle, solid, options))  # type: ignore[arg-type]
         self.shapenodes.append(node)
         return node

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pydart2.building import solids
-from pydart2.building.bodies import DENSITY, BodyOptions, paint
+from pydart2.building.bodies import DENSITY, BodyOptions, check_options, paint
 from pydart2.building.skins import Skin
 from pydart2.simulation.members import Members
 
@@ -118,6 +118,7 @@ class SoftBuilding(Members):
     def _add_soft(
         self, solid: solids.Solid, points: Skin, mass: float | None, position: ArrayLike, options: SoftOptions
     ) -> Skeleton:
+        check_options(options, SoftOptions)
         half = (options.get("density", DENSITY) * solid.volume if mass is None else mass) / 2.0
         if not 0.0 < half < np.inf or not solid.volume > 0.0:
             raise ValueError("a soft body needs a mass, and a surface that encloses something")

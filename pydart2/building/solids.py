@@ -45,6 +45,13 @@ def _three(size: ArrayLike, what: str) -> tuple[float, float, float]:
     return float(edges[0]), float(edges[1]), float(edges[2])
 
 
+def _lengths(*values: float) -> tuple[float, ...]:
+    try:
+        return tuple(map(float, values))
+    except TypeError:
+        raise TypeError(f"lengths are numbers, in m, not {', '.join(map(repr, values))}") from None
+
+
 def _round(along: float, across: float) -> NDArray[np.float64]:
     """Of a body that is round about z."""
     return np.diag([across, across, along])
@@ -65,17 +72,20 @@ def ellipsoid(size: ArrayLike) -> Solid:
 
 def sphere(radius: float) -> Solid:
     """A sphere."""
+    (radius,) = _lengths(radius)
     return Solid("SphereShape", (radius,), 4 / 3 * pi * radius**3, 0.4 * radius**2 * np.eye(3))
 
 
 def cylinder(radius: float, height: float) -> Solid:
     """A cylinder along z."""
+    radius, height = _lengths(radius, height)
     inertia = _round(radius**2 / 2, radius**2 / 4 + height**2 / 12)
     return Solid("CylinderShape", (radius, height), pi * radius**2 * height, inertia)
 
 
 def capsule(radius: float, length: float) -> Solid:
     """A cylinder along z, `length` long, with half a sphere at each end."""
+    radius, length = _lengths(radius, length)
     tube, ball = pi * radius**2 * length, 4 / 3 * pi * radius**3
     whole = length + 4 / 3 * radius
     tubes = length / whole if whole else 0.0  # share of the volume; sizes of 0 are refused where they are used
@@ -88,6 +98,7 @@ def capsule(radius: float, length: float) -> Solid:
 
 def cone(radius: float, height: float) -> Solid:
     """A cone along z, its tip at height/2."""
+    radius, height = _lengths(radius, height)
     inertia = _round(0.3 * radius**2, 0.15 * radius**2 + 3 / 80 * height**2)
     com = np.array([0.0, 0.0, -height / 4])
     return Solid("ConeShape", (radius, height), pi / 3 * radius**2 * height, inertia, com)

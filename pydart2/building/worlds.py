@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.building import solids
-from pydart2.building.bodies import DENSITY, BodyOptions, ShapeOptions, attach
+from pydart2.building.bodies import DENSITY, BodyOptions, ShapeOptions, attach, check_options
 from pydart2.building.soft_bodies import SoftBuilding
 from pydart2.poses import between, pose
 from pydart2.simulation.up import Upright
@@ -35,7 +35,7 @@ class WorldBuilding(SoftBuilding, Upright):
         size: ArrayLike = (100.0, 100.0),
         *,
         name: str = "ground",
-        color: ArrayLike = (0.7, 0.7, 0.7),
+        color: ArrayLike = (0.86, 0.88, 0.9),
         friction: float = 1.0,
         restitution: float = 0.0,
     ) -> Skeleton:
@@ -168,6 +168,7 @@ class WorldBuilding(SoftBuilding, Upright):
     def _add_single(
         self, solid: solids.Solid, mass: float | None, position: ArrayLike, options: BodyOptions
     ) -> Skeleton:
+        check_options(options, BodyOptions)
         if mass is not None and not mass >= 0.0:
             raise ValueError(f"a mass must be positive, got {mass}")
         fixed = options.get("fixed", False)

@@ -8,12 +8,22 @@ from __future__ import annotations
 import argparse
 import json
 import logging
+import os
 import sys
 from collections.abc import Sequence
 from typing import Any
 
+import pydart2
 from pydart2.cli import bench, check, convert, examples, info, inspect, pictures
+from pydart2.cli.models import path_of
 from pydart2.errors import PydartError
+
+_FIRST_LINES = """first lines to try:
+  pydart2 view skel/fullbody1.skel
+  pydart2 render urdf/PR2/pr2.urdf -o pr2.png
+  pydart2 examples biped_stand
+
+pydart2 COMMAND --help says more of each."""
 
 _MODULES = (pictures, inspect, check, convert, bench, examples, info)
 
@@ -23,22 +33,37 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
     The process ends with status 1 and a sentence if that fails, and with status 2 if the line makes no sense.
     """
-    args = parser().parse_args(arguments)
+    commands = parser()
+    args = commands.parse_args(arguments)
+    if args.command is None:
+        commands.print_help()
+        return
     logging.basicConfig(format="%(levelname)s: %(message)s")
     try:
+        if "file" in args:
+            args.file = path_of(args.file)
         answer = args.run(args)
+        if answer is not None:
+            _print(answer, args)
+    except BrokenPipeError:  # who reads what is printed has read enough, as head does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
     except (PydartError, OSError, ValueError, ImportError) as error:
         sys.exit(f"pydart2 {args.command}: {error}")
     except KeyboardInterrupt:
         sys.exit(130)
-    if answer is not None:
-        _print(answer, args)
 
 
 def parser() -> argparse.ArgumentParser:
     """Of all commands."""
-    top = argparse.ArgumentParser(prog="pydart2", description="Robot physics for Python on the DART engine.")
-    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    top = argparse.ArgumentParser(
+        prog="pydart2",
+        description="Robot physics for Python on the DART engine.",
+        epilog=_FIRST_LINES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    top.add_argument("--version", action="version", version=f"pydart2 {pydart2.__version__}")
+    commands = top.add_subparsers(dest="command", metavar="COMMAND", title="commands")
     for module in _MODULES:
         module.add(commands)
     return top
@@ -46,6 +71,6 @@ def parser() -> argparse.ArgumentParser:
 
 def _print(answer: Any, args: argparse.Namespace) -> None:
     """A report as text, or with ``--json`` as JSON; status 1 if it says that something is wrong."""
-    print(json.dumps(answer.data, indent=2) if args.json else answer.text)
+    print(json.dumps(answer.data, indent=2) if args.json else answer.text, flush=True)
     if not answer.good:
         sys.exit(1)

@@ -11,10 +11,13 @@ from typing import Any
 import numpy as np
 
 from pydart2.bodynode import BodyNode
+from pydart2.cli.inspect import tree
 from pydart2.cli.models import add_file
 from pydart2.cli.report import Report
+from pydart2.errors import SimulationError
 from pydart2.gui.first_look import open_world
 from pydart2.skeleton import Skeleton
+from pydart2.telling import count
 
 _STEPS = 10
 
@@ -42,15 +45,20 @@ def run(args: argparse.Namespace) -> Report:
         found = [*messages.texts, *_names_twice("skeleton", (skel.name for skel in world.skeletons))]
         found += [complaint for skel in world.skeletons for complaint in _of_skeleton(skel)]
         messages.texts.clear()
-        world.step(_STEPS)
+        try:
+            world.step(_STEPS)
+        except SimulationError as error:
+            found.append(str(error))
         found += messages.texts
     finally:
         logger.removeHandler(messages)
         logger.propagate = True
     loaded = [
-        f"{skel.name}: {skel.m:.4g} kg, {len(skel.bodynodes)} bodies, {skel.ndofs} dofs" for skel in world.skeletons
+        f"{skel.name}: {skel.m:.4g} kg, {count(len(skel.bodynodes), 'body', 'bodies')}, {count(skel.ndofs, 'dof')}"
+        for skel in world.skeletons
     ]
-    text = "\n".join([*(f"loads    {line}" for line in loaded), *(f"wrong?   {line}" for line in found)])
+    lines = [*(f"loads    {line}" for line in loaded), *(f"wrong?   {line}" for line in found)]
+    text = "\n".join(lines if found else [*lines, "ok       nothing looks wrong"])
     return Report(text, {"loads": loaded, "wrong": found}, good=not found)
 
 
@@ -81,9 +89,10 @@ def _of_skeleton(skel: Skeleton) -> Iterator[str]:
 def _of_body(body: BodyNode) -> Iterator[str]:
     where = f"body {body.name!r} of {body.skel.name!r}"
     moments = np.linalg.eigvalsh(body.I)
-    if not body.m > 0.0:
-        yield f"{where} has the mass {body.m:g} kg"
-    if moments[0] <= 0.0:
+    if not body.m > 0.0:  # frames, of tools and cameras, have none
+        if body.parent_joint.num_dofs() and not any(below.m > 0.0 for below in tree(body)):
+            yield f"{where} moves, and neither it nor what hangs on it has mass"
+    elif moments[0] <= 0.0:
         yield f"{where} has moments of inertia that are not positive: {_list(moments)} kg m²"
     elif moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-6):
         reason = "the largest is above the sum of the others"

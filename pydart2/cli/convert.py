@@ -7,9 +7,6 @@ from typing import Any
 
 from pydart2.cli.models import add_file
 
-_TIME_STEP = 0.001  # s, of a file that has none
-_TIME_STEPS = {"skel": "world/physics/time_step", "sdf": "world/physics/max_step_size"}
-
 
 def add(commands: Any) -> None:
     """Add the command."""
@@ -27,23 +24,14 @@ def add(commands: Any) -> None:
 
 def run(args: argparse.Namespace) -> None:
     """Load and save: a world as a world where the format has them, or if it holds one skeleton that."""
+    from pydart2.gui.first_look import open_world
     from pydart2.loading import read_model
-    from pydart2.world import World
 
-    model: Any = read_model(args.file)
-    world = World(_time_step(model), model)
+    model = read_model(args.file)
+    world = open_world(model)
     if args.only is not None:
         world.skeleton(args.only).save(args.output, strict=args.strict)
     elif len(world.skeletons) == 1 and (not model.has_world or args.output.lower().endswith(".urdf")):
         world.skeletons[0].save(args.output, strict=args.strict)
     else:
         world.save(args.output, strict=args.strict)
-
-
-def _time_step(model: Any) -> float:
-    """That of a file, s."""
-    if model.time_step is not None:
-        return float(model.time_step)
-    root = model.document.root
-    text = root.get(_TIME_STEPS[root.tag]) if root.tag in _TIME_STEPS else None
-    return float(text) if text else _TIME_STEP

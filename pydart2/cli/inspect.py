@@ -13,6 +13,7 @@ from pydart2.cli.models import add_file
 from pydart2.cli.report import Report, table
 from pydart2.gui.first_look import open_world
 from pydart2.skeleton import Skeleton
+from pydart2.telling import count
 
 
 def add(commands: Any) -> None:
@@ -34,7 +35,7 @@ def _skeleton(skel: Skeleton) -> dict[str, Any]:
     return {
         "name": skel.name,
         "mass": skel.m,
-        "bodies": [_body(body) for root in skel.bodynodes if root.parent_bodynode is None for body in _tree(root)],
+        "bodies": [_body(body) for root in skel.bodynodes if root.parent_bodynode is None for body in tree(root)],
         "dofs": [
             {
                 "name": dof.name,
@@ -49,7 +50,7 @@ def _skeleton(skel: Skeleton) -> dict[str, Any]:
     }
 
 
-def _tree(body: BodyNode) -> Iterator[BodyNode]:
+def tree(body: BodyNode) -> Iterator[BodyNode]:
     """A body, then each child with all below it."""
     waiting = [body]
     while waiting:
@@ -85,7 +86,7 @@ def _bounds(lower: float, upper: float) -> list[float | None]:
 
 def _text(skeleton: dict[str, Any]) -> str:
     bodies, dofs = len(skeleton["bodies"]), len(skeleton["dofs"])
-    title = f"{skeleton['name']}: {skeleton['mass']:.4g} kg, {bodies} bodies, {dofs} dofs"
+    title = f"{skeleton['name']}: {skeleton['mass']:.4g} kg, {count(bodies, 'body', 'bodies')}, {count(dofs, 'dof')}"
     depth: dict[str | None, int] = {None: -1}
     rows = []
     for body in skeleton["bodies"]:

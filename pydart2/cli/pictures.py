@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from pydart2.cli.models import add_file
+from pydart2.cli.models import add_file, add_ground
 from pydart2.gui.first_look import VIEWS, open_world
 
 
@@ -14,29 +14,25 @@ def add(commands: Any) -> None:
     """Add the commands."""
     view = commands.add_parser("view", help="show a file in a window")
     add_file(view)
-    _add_ground(view)
+    add_ground(view)
     view.set_defaults(run=run_view)
 
     render = commands.add_parser("render", help="make a picture of a file")
     add_file(render)
-    _add_picture(render, "out.png")
+    _add_picture(render, "out.png", "file to write: .png, .jpg, .webp")
     render.set_defaults(run=run_render)
 
     record = commands.add_parser("record", help="simulate a file and make a movie of it")
     add_file(record)
-    _add_ground(record)
-    _add_picture(record, "out.mp4", " (.mp4, .webp, .gif)")
+    add_ground(record)
+    _add_picture(record, "out.mp4", "file to write: .mp4, .webp, .gif")
     record.add_argument("--seconds", type=float, default=5.0, metavar="S", help="how long to simulate (5)")
     record.add_argument("--fps", type=float, default=30.0, help="pictures a second (30)")
     record.set_defaults(run=run_record)
 
 
-def _add_ground(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--no-ground", action="store_true", help="let it fall: add no ground where the file has none")
-
-
-def _add_picture(parser: argparse.ArgumentParser, name: str, kinds: str = "") -> None:
-    parser.add_argument("-o", "--output", type=Path, default=Path(name), metavar="PATH", help=f"{name}{kinds}")
+def _add_picture(parser: argparse.ArgumentParser, name: str, kinds: str) -> None:
+    parser.add_argument("-o", "--output", type=Path, default=Path(name), metavar="PATH", help=f"{kinds} ({name})")
     parser.add_argument("--size", type=_size, default=(640, 480), metavar="WxH", help="in pixels (640x480)")
     parser.add_argument("--camera", choices=sorted(VIEWS), default="auto", help="where to look from (auto)")
 

@@ -12,6 +12,10 @@ from pydart2.gui.trackball import Trackball
 
 Matrix = NDArray[np.float64]
 
+#: What is seen, to what shall be seen.
+MARGIN = 1.1
+_NEAREST = 2.2  # radii: from nearer, what is in front looks much larger than what is behind
+
 
 @dataclass(frozen=True, eq=False)
 class Camera:
@@ -77,6 +81,30 @@ class Camera:
         matrix[2, 2:] = (self.far + self.near) / depth, 2.0 * self.far * self.near / depth
         matrix[3, 2] = -1.0
         return matrix
+
+
+def nearest(turn: Matrix, points: Matrix, fov: float, aspect: float) -> Matrix:
+    """Where an eye has the world's origin, shape (3,), m, that sees some points from as near as it can, with a margin.
+
+    From height h and depth d, a point at height y and depth z is seen where |y - h| <= (d - z) tan(fov/2). The least d
+    is that of the points that are an equality above and below; the width has another.
+
+    Parameters
+    ----------
+    turn
+        From the world's to the eye's axes, shape (3, 3).
+    points
+        In the world, shape (n, 3), m.
+    fov, aspect
+        Vertical field of view, rad; width / height of the picture.
+    """
+    seen = points @ turn.T
+    slopes = np.tan(fov / 2.0) / MARGIN * np.array([aspect, 1.0])
+    above = (seen[:, :2] + slopes * seen[:, 2:]).max(axis=0)
+    below = (seen[:, :2] - slopes * seen[:, 2:]).min(axis=0)
+    middle = (seen.min(axis=0) + seen.max(axis=0)) / 2.0
+    least = middle[2] + _NEAREST * np.linalg.norm(seen - middle, axis=1).max()
+    return -np.array([*(above + below) / 2.0, max(np.max((above - below) / (2.0 * slopes)), least)])
 
 
 def default_trackballs() -> list[tuple[str, Trackball]]:

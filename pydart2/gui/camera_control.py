@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.gui.camera import nearest
 from pydart2.gui.trackball import Trackball
 
 Array = NDArray[np.float64]
@@ -85,12 +88,12 @@ class CameraControl:
     # Where to look
 
     def frame(self, low: ArrayLike, high: ArrayLike, aspect: float = 1.0) -> None:
-        """Show a box, given by its corners (3,), m: its middle in the middle, all of it in the picture."""
+        """Show a box, given by its corners (3,), m, and at least 5 cm around its middle."""
         lowest, highest = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
         self.pivot = (lowest + highest) / 2.0
-        radius = max(float(np.linalg.norm(highest - lowest)) / 2.0, 0.05)
-        half = np.arctan(np.tan(FIELD_OF_VIEW / 2.0) * min(aspect, 1.0))
-        self.trans = np.array([0.0, 0.0, -radius / np.sin(half)]) - self.rotation @ self.pivot
+        half = np.maximum(highest - lowest, _NEAREST) / 2.0
+        corners = self.pivot + half * np.array(list(product((-1.0, 1.0), repeat=3)))
+        self.trans = nearest(self.rotation, corners, FIELD_OF_VIEW, aspect)
 
     def follow(self, point: ArrayLike) -> None:
         """Move the eye by as much as the pivot has moved to get to `point` (3,), m."""

@@ -116,7 +116,7 @@ class OffscreenRenderer:
         if mode not in _MODES:
             raise ValueError(f"no mode {mode!r}; there are {', '.join(_MODES)}")
         if camera is None or isinstance(camera, str):
-            eye, floor = look(world, size[0] / size[1], camera or "auto"), floor_of(world)
+            eye, floor = look(world, size[0] / size[1], camera or "auto", still=True), floor_of(world)
         else:
             eye, floor = as_camera(camera), None
         with self._current():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -49,3 +50,9 @@ def boxes(items: Iterable[Item]) -> Array:
     centre = np.einsum("nij,nj->ni", matrices[:, :3, :3], middle) + matrices[:, :3, 3]
     reach = np.einsum("nij,nj->ni", np.abs(matrices[:, :3, :3]), half)
     return np.stack([centre - reach, centre + reach], axis=1)
+
+
+def corners(item: Item) -> Array:
+    """Of the box around an item's mesh, in the world, shape (8, 3), m."""
+    ends = np.array(list(product(*np.transpose(item.mesh.bounds))))
+    return np.asarray(ends @ item.transform[:3, :3].T + item.transform[:3, 3])

@@ -54,13 +54,11 @@ def launch_pyqt5(sim: Any, title: str | None = None, default_camera: int | None 
     NoDisplayError
         If there is no display.
     """
-    from pydart2.gui.first_look import floor_of
     from pydart2.gui.pyqt5.window import PyQt5Window
 
     window = PyQt5Window(sim, title)
     if default_camera is None:
-        window.glwidget.overlays.floor = floor_of(sim)
-        window.commands.frame_all()
+        window.commands.first_look()
     launch_window(sim, window, default_camera)
     return window
 

@@ -172,11 +172,13 @@ class Members(WorldPart):
         self._take_in(skel)
         return skel
 
-    def remove_skeleton(self, skel: Skeleton) -> None:
-        """Take a skeleton out of the world, with the constraints that hold it; it can no longer be used.
+    def remove_skeleton(self, skel: Skeleton | str) -> None:
+        """Take a skeleton, or that of a name, out of the world, with the constraints that hold it; it is gone then.
 
         Contacts that it had stay in `collision_result` and in the recording, without a body on its side.
         """
+        if isinstance(skel, str):
+            skel = self.skeleton(skel)
         if skel not in self.skeletons:
             raise ValueError(f"{skel!r} is not in {self!r}")
         self.collision_result._look()  # the engine forgets them

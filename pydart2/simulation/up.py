@@ -35,8 +35,12 @@ def is_z_up(model: Readable) -> bool:
 
 
 def check(axis: Axis | None) -> None:
-    """NameNotFound for what is no axis."""
-    if axis is not None and axis not in _AXES:
+    """NameNotFound for what is no axis, TypeError for what is no name."""
+    if axis is None:
+        return
+    if not isinstance(axis, str):
+        raise TypeError(f"up is 'x', 'y' or 'z', not {axis!r}; world.g = ... sets any other gravity")
+    if axis not in tuple(_AXES):
         raise NameNotFound("axis", axis, "up: x, y or z", _AXES)
 
 

@@ -11,6 +11,7 @@ from PIL import Image, ImageSequence
 import pydart2
 from pydart2.gui import OffscreenRenderer
 from pydart2.gui.first_look import VIEWS, floor_of, look
+from pydart2.gui.scene import from_world
 
 BOX = """<robot name="box"><link name="box">
   <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
@@ -40,6 +41,38 @@ def test_all_is_in_the_picture(atlas: pydart2.World, view: str, aspect: float) -
     places = on_screen(atlas, view, aspect)
     assert np.abs(places).max() < 1.0
     assert np.abs(places).max() > 0.25  # and not far away
+
+
+@pytest.mark.parametrize("name", ["skel/chain.skel", "urdf/PR2/pr2.urdf", "skel/shapes.skel"])
+@pytest.mark.parametrize("view", VIEWS)
+def test_a_picture_is_filled_but_for_a_margin(name: str, view: str) -> None:
+    """On two sides by what is there, unless that would be so near that what is in front looks large."""
+    world = pydart2.World(0.001, pydart2.data_path(name))
+    camera = look(world, 4 / 3, view, still=True)
+    points = corners(world)
+    clip = np.column_stack([points, np.ones(len(points))]) @ (camera.projection(4 / 3) @ camera.view).T
+    left, below = (clip[:, :2] / clip[:, 3:]).min(axis=0)
+    right, above = (clip[:, :2] / clip[:, 3:]).max(axis=0)
+    seen = points @ camera.view[:3, :3].T + camera.view[:3, 3]
+    middle = (seen.min(axis=0) + seen.max(axis=0)) / 2.0
+    radii = -middle[2] / np.linalg.norm(seen - middle, axis=1).max()
+    filled = max(min(right, -left), min(above, -below))
+    assert filled == pytest.approx(1.0 / 1.1, abs=1e-9) or (
+        filled < 1.0 / 1.1 and radii == pytest.approx(2.2, abs=1e-9)
+    )
+
+
+def corners(world: pydart2.World) -> np.ndarray:
+    """Of the boxes around the meshes that are no floors, shape (n, 3), m."""
+    boxes = []
+    for item in from_world(world):
+        if item.casts:
+            low, high = item.mesh.bounds
+            ends = np.array(
+                [[x, y, z, 1.0] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+            )
+            boxes.append(ends @ item.transform[:3].T)
+    return np.concatenate(boxes)
 
 
 def test_up_is_up(atlas: pydart2.World) -> None:

@@ -226,7 +226,7 @@ def test_pictures_that_move_are_drafts_without_a_graphics_card(make_window: Make
     still = picture.picture()
     assert not picture.is_draft and picture._target.samples == 4
     window.playAction.setChecked(True)
-    spin(0.2)
+    wait_for(lambda: cubes.t > 0.1)
     assert picture.is_draft and picture._target.samples == 0
     with picture.current():
         assert picture.to_show() is picture._target  # one that was begun before

@@ -128,6 +128,14 @@ def test_a_ball_joint_turns_the_short_way() -> None:
     assert_allclose(skel.q, goal, atol=1e-5)
 
 
+def test_a_part_of_a_vector_is_by_name() -> None:
+    robot = pydart2.World(0.001).add_skeleton("./data/sdf/atlas/atlas_v3_no_head.sdf")
+    robot.set_targets(robot.q[6:] + 0.1, kp=100.0)
+    assert robot.targets is not None
+    np.testing.assert_array_equal(robot.targets.kp, [0.0] * 6 + [100.0] * 27)
+    np.testing.assert_array_equal(robot.targets.q, [0.0] * 6 + [0.1] * 27)
+
+
 def test_targets_add_to_a_controller(pendulum: Skeleton) -> None:
     """The forces of both act."""
 

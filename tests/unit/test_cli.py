@@ -110,7 +110,22 @@ def test_convert_says_what_is_wrong(
 
 def test_check_finds_nothing_wrong(arm: str, capsys: pytest.CaptureFixture[str]) -> None:
     main(["check", arm])
-    assert capsys.readouterr().out == "loads    arm: 4 kg, 2 bodies, 7 dofs\n"
+    assert capsys.readouterr().out == "loads    arm: 4 kg, 2 bodies, 7 dofs\nok       nothing looks wrong\n"
+
+
+def test_check_takes_frames_without_mass_but_no_moving_part_without(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, link = tmp_path / "arm.urdf", LINK.format("upper", 1.0)
+    joint = JOINT.format(-0.5)
+    path.write_text(f'<robot name="arm">{link}<link name="lower"/>{joint.replace("revolute", "fixed")}</robot>')
+    main(["check", str(path)])
+    assert capsys.readouterr().out.endswith("nothing looks wrong\n")
+    nothing = LINK.format("lower", 0.0).replace('value="2"', 'value="0"').replace('"1"', '"0"')
+    path.write_text(f'<robot name="arm">{link}{nothing}{joint}</robot>')
+    with pytest.raises(SystemExit):
+        main(["check", str(path), "--json"])
+    assert any("'lower' of 'arm' moves" in line for line in json.loads(capsys.readouterr().out)["wrong"])
 
 
 def test_check_tells_what_cannot_be(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -166,15 +181,44 @@ def test_a_broken_file_is_a_sentence_and_status_1(
     assert "Traceback" not in str(end.value)
 
 
-@pytest.mark.parametrize("arguments", [["render", "x", "--size", "large"], ["fly"], []])
+@pytest.mark.parametrize("arguments", [["render", "x", "--size", "large"], ["fly"], ["--fly"]])
 def test_a_line_without_sense_is_status_2(arguments: list[str]) -> None:
     with pytest.raises(SystemExit) as end:
         main(arguments)
     assert end.value.code == 2
 
 
-def test_each_command_has_help() -> None:
+def test_a_robot_of_an_installed_package_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["inspect", "ur5e"])
+    assert "shoulder_pan_joint" in capsys.readouterr().out
+    with pytest.raises(SystemExit, match=r"^pydart2 inspect: no model 'fulbody1' in .*; did you mean 'fullbody1'\?"):
+        main(["inspect", "fulbody1"])
+
+
+def test_the_time_step_is_the_files(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pydart2.cli.bench._SECONDS", 0.001)
+    path = tmp_path / "swing.skel"
+    path.write_text(SWING.replace("<skeleton", "<physics><time_step>0.004</time_step></physics><skeleton", 1))
+    main(["bench", str(path), "--json"])
+    assert json.loads(capsys.readouterr().out)["dt"] == 0.004
+
+
+def test_who_reads_the_first_line_only_is_no_error() -> None:
+    line = f"{sys.executable} -m pydart2 inspect sdf/atlas/atlas_v3_no_head.sdf | head -n 1"
+    done = subprocess.run(["bash", "-c", line], capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("drc_skeleton: 146.6 kg, 28 bodies, 33 dofs\n", "")
+
+
+def test_help(capsys: pytest.CaptureFixture[str]) -> None:
+    main([])
+    text = capsys.readouterr().out
     [commands] = [action for action in parser()._actions if action.dest == "command"]
     assert set(COMMANDS) < set(commands.choices or ())
+    assert all(f"\n    {command} " in text for command in COMMANDS)
+    with pytest.raises(SystemExit) as end:
+        main(["--version"])
+    assert end.value.code == 0 and capsys.readouterr().out == f"pydart2 {pydart2.__version__}\n"
     done = subprocess.run([sys.executable, "-m", "pydart2", "render", "--help"], capture_output=True, text=True)
     assert done.returncode == 0 and "--camera" in done.stdout

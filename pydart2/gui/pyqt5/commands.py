@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from PyQt5.QtWidgets import QFileDialog
+from scipy.spatial.transform import Rotation
 
 from pydart2.bodynode import BodyNode
-from pydart2.gui.first_look import open_world
+from pydart2.gui.first_look import floor_of, look, open_world
 from pydart2.gui.placing import boxes
 from pydart2.gui.pyqt5.actions import SPEEDS
+from pydart2.gui.trackball import Trackball
 from pydart2.loading import read_model
 from pydart2.skeleton import Skeleton
 
@@ -70,6 +72,15 @@ class Commands:
         scene = self.window.scene
         shown = next((i for i, tb in enumerate(scene.cameras) if tb is scene.tb), 0)
         self.window.camera_event((shown + 1) % max(scene.num_cameras(), 1))
+
+    def first_look(self) -> None:
+        """See all from where `gui.render` sees it, with the world's up upwards, and a floor where there is none."""
+        sim, scene = self.window.sim, self.window.scene
+        self.window.glwidget.overlays.floor = floor_of(sim)
+        if self.window.world is not None:
+            rot = Rotation.from_matrix(look(sim).pose[:3, :3]).as_quat()
+            scene.replace_camera(scene.cameras.index(scene.tb), Trackball(rot=rot.tolist()))
+        self.frame_all()
 
     def frame_all(self) -> None:
         """Let the camera see all but floors."""
@@ -164,4 +175,4 @@ class Commands:
         step = {} if world is None else {"step": world.dt}
         self.window.set_simulation(open_world(model, ground=True, **step))
         self.window.look_upright()
-        self.frame_all()
+        self.first_look()

@@ -7,7 +7,7 @@ from bisect import bisect_left
 import numpy as np
 import pyqtgraph as pg
 from PyQt5.QtCore import Qt
-from PyQt5.QtWidgets import QComboBox, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QComboBox, QLabel, QVBoxLayout, QWidget
 
 from pydart2.dof import Dof
 
@@ -78,8 +78,13 @@ class DofPlots(QWidget):
         self.plot.addItem(self.marker, ignoreBounds=True)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
+        self.hint = QLabel("The button at the end of a joint's row plots it here.")
+        self.hint.setAlignment(Qt.AlignTop)
+        self.hint.setWordWrap(True)
         layout.addWidget(self.box)
-        layout.addWidget(self.plot)
+        layout.addWidget(self.hint, 1)
+        layout.addWidget(self.plot, 1)
+        self.plot.hide()
         self._curves: dict[Dof, pg.PlotDataItem] = {}
         self._samples: dict[Dof, Samples] = {}
         self._time = float("-inf")
@@ -105,6 +110,8 @@ class DofPlots(QWidget):
         elif not on and dof in self._curves:
             self.plot.removeItem(self._curves.pop(dof))
             del self._samples[dof]
+        self.plot.setVisible(bool(self._curves))
+        self.hint.setVisible(not self._curves)
 
     def forget(self) -> None:
         """Plot nothing."""

@@ -4,9 +4,22 @@ from __future__ import annotations
 
 import math
 
+from PyQt5.QtCore import Qt
+from PyQt5.QtGui import QPainter, QPaintEvent, QPalette
 from PyQt5.QtWidgets import QLabel, QSizePolicy, QStatusBar
 
 from pydart2.gui.runtime import Runtime
+
+
+class _Elided(QLabel):
+    """A label whose text ends with … where there is no room for all of it."""
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802
+        """Draw what there is room for."""
+        text = self.fontMetrics().elidedText(self.text(), Qt.ElideRight, self.contentsRect().width())
+        self.style().drawItemText(
+            QPainter(self), self.contentsRect(), int(self.alignment()), self.palette(), True, text, QPalette.WindowText
+        )
 
 
 class StatusView:
@@ -20,7 +33,7 @@ class StatusView:
 
     def __init__(self, bar: QStatusBar) -> None:
         bar.setSizeGripEnabled(False)
-        self.text, self.frame, self.pace = QLabel(), QLabel(), QLabel()
+        self.text, self.frame, self.pace = _Elided(), QLabel(), QLabel()
         self.pace.setToolTip("Simulated seconds per second, over the last second")
         self.text.setSizePolicy(QSizePolicy.Ignored, QSizePolicy.Preferred)  # long ones make no window wider
         bar.addWidget(self.text, 1)
