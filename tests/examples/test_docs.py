@@ -29,6 +29,7 @@ def script(page: Path) -> tuple[str, list[str]]:
     text = page.read_text(encoding="utf-8")
     lines = [""] * len(text.splitlines())
     expected: list[str] = []
+    runs = False  # what other libraries print is theirs
     for match in BLOCK.finditer(text):
         start = text.count("\n", 0, match.start()) + 1
         if match["kind"] == "python":
@@ -36,23 +37,42 @@ def script(page: Path) -> tuple[str, list[str]]:
                 lines[start + i] = line
             lines[start - 1] = f"print({MARK!r}, flush=True)"
             expected.append("")
-        elif match["kind"] == "text":
+        elif match["kind"] == "text" and runs:
             expected[-1] = match["code"]
+        runs = match["kind"] == "python"
     return "\n".join(lines), expected
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_page(page: Path, tmp_path: Path) -> None:
     code, expected = script(page)
-    path = tmp_path / page.with_suffix(".py").name
+    path = tmp_path / f"page_{page.stem}.py"  # mujoco.py would hide mujoco
     path.write_text(code, encoding="utf-8")
     # Windows open without a display and close by themselves.
-    env = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "PYDART2_VIEWER_SECONDS": "1"}
+    env = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "PYDART2_VIEWER_SECONDS": "1", "MUJOCO_GL": "egl"}
     command = [sys.executable, "-W", "error", str(path)]
     done = subprocess.run(command, cwd=tmp_path, env=env, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     printed = [part.removeprefix("\n") for part in done.stdout.split(MARK)[1:]]
     assert printed == expected
+
+
+def test_the_ten_first_scripts_have_as_many_lines_as_their_page_says() -> None:
+    """And none of ours has more than twelve."""
+    here, *others = (lines_of_scripts(name) for name in ("first-scripts", "migration/mujoco", "migration/pybullet"))
+    text = (ROOT / "docs" / "first-scripts.md").read_text(encoding="utf-8")
+    table = re.findall(r"^\| \[(.+?)\]\(.*?\) \| (\d+) \| (\d+) \| (\d+) \|$", text, re.MULTILINE)
+    assert len(table) == 10
+    assert table == [(name, *(str(page[name]) for page in (here, *others))) for name in here]
+    assert max(here.values()) <= 12
+
+
+def lines_of_scripts(page: str) -> dict[str, int]:
+    """Heading → lines of the code below it that are neither empty nor comments."""
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    found = re.findall(r"^##+ ([^\n]+)\n(?:(?!^#).)*?^```py(?:thon)?\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+    counts = {name: sum(1 for x in code.splitlines() if x.strip() and x.lstrip()[0] != "#") for name, code in found}
+    return {name: n for name, n in counts.items() if name not in ("The same script", "Ten first scripts")}
 
 
 def test_no_page_is_left_out() -> None:
@@ -62,7 +82,7 @@ def test_no_page_is_left_out() -> None:
 
 def migration_rows() -> list[list[str]]:
     """The names in backticks of each column."""
-    text = (ROOT / "docs" / "migration.md").read_text(encoding="utf-8")
+    text = "".join((ROOT / f"docs/migration/{name}.md").read_text(encoding="utf-8") for name in ("original", "dartpy"))
     rows = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("|")]
     return [[re.findall(r"`([^`]+)`", cell) for cell in row] for row in rows]  # type: ignore[misc]
 
