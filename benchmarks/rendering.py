@@ -19,7 +19,7 @@ from PIL import Image
 
 import pydart2
 from pydart2.gui import Camera, OffscreenRenderer, drawing, geometry
-from pydart2.gui.scene import Scene
+from pydart2.gui.draw_list import Scene
 
 try:
     import mujoco

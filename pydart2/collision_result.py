@@ -11,23 +11,27 @@ from pydart2.contact import Contact
 
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
+    from pydart2.skeleton import Skeleton
     from pydart2.world import World
 
 _COLUMNS = 16  # contact.hpp
 
 
 class _Contacts:
-    """What one collision pass found; objects are made when someone wants them."""
+    """What one collision pass found, with the skeletons that it is about; objects are made when someone wants them."""
+
+    skeletons: tuple[Skeleton, ...] | None = None  # None, as in old pickles: those that the world has now
 
     def __init__(self, world: World, rows: NDArray[np.float64]) -> None:
         self.world = world
         self.rows = rows
+        self.skeletons = tuple(world.skeletons)
         self._contacts: list[Contact] | None = None
 
     @property
     def contacts(self) -> list[Contact]:
         if self._contacts is None:
-            self._contacts = Contact.from_rows(self.world, self.rows)
+            self._contacts = Contact.from_rows(self.world, self.rows, self.skeletons or tuple(self.world.skeletons))
         return self._contacts
 
     @property

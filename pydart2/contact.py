@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pydart2 import screen
 from pydart2._native import ContactRow
@@ -55,9 +55,25 @@ class Contact(ContactRow):
         return self._bodynode(self.skel_id2, self.bodynode_id2)
 
     def _bodynode(self, skel_id: int, bodynode_id: int) -> BodyNode | None:
-        if not 0 <= skel_id < len(self.world.skeletons):
+        now = self.world.skeletons
+        skeletons = now if self._skeletons is None else self._skeletons
+        if not 0 <= skel_id < len(skeletons):
             return None
-        return self.world.skeletons[skel_id].bodynodes[bodynode_id]
+        skel = skeletons[skel_id]
+        is_there = 0 <= skel.id < len(now) and now[skel.id] is skel
+        return skel.bodynodes[bodynode_id] if is_there else None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """With the ids that the skeletons have now, -1 for those that have gone."""
+        reduced: tuple[Any, Any] = super().__reduce__()  # type: ignore[assignment]
+        cls, (world, row) = reduced
+        sides = ((self.bodynode1, [6, 7, 10]), (self.bodynode2, [8, 9, 11]))
+        for body, columns in sides if self._skeletons is not None else ():
+            if body is not None:
+                row[columns[0]] = body.skeleton.id
+            elif row[columns[0]] >= 0:
+                row[columns] = -1
+        return cls, (world, row)
 
     def render(self, size: float = 0.01, scale: float = -0.005) -> None:
         """Draw a dot of radius `size`, m, and an arrow along the force, `scale` in m/N, with the current OpenGL context

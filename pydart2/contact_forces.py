@@ -39,10 +39,13 @@ class Contacts:
         Ids of skeleton and body on that side, then on the other; -1 where there is none.
     """
 
+    _skeletons: tuple[Skeleton, ...] | None = None  # that the ids are about; None, as in old pickles: the world's now
+
     def __init__(self, world: World, rows: Array, turned: NDArray[np.bool_]) -> None:
         """`rows` as of CollisionResult.rows; `turned` where the second body is the side that was asked for, (n,)."""
         self.world = world
         self._rows = rows
+        self._skeletons = tuple(world.skeletons)
         sign = np.where(turned, -1.0, 1.0)[:, None]
         self.points: Array = rows[:, 0:3].copy()
         self.forces: Array = sign * rows[:, 3:6]
@@ -60,7 +63,8 @@ class Contacts:
         return len(self._rows)
 
     def __getitem__(self, index: int) -> Contact:
-        return Contact(self.world, self._rows[index])
+        rows = self._rows[index][None]
+        return Contact.from_rows(self.world, rows, self._skeletons or tuple(self.world.skeletons))[0]
 
     @property
     def force(self) -> Array:

@@ -14,8 +14,8 @@ from PIL import Image
 
 import pydart2
 from pydart2.gui import Camera, OffscreenRenderer, drawing
+from pydart2.gui.draw_list import from_world
 from pydart2.gui.placing import boxes
-from pydart2.gui.scene import from_world
 
 ROOT = Path(__file__).resolve().parent.parent
 SIZE, SMOOTH = 400, 2  # pixels of a picture, and how many of a drawing make one of them

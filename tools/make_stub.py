@@ -46,6 +46,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.indexing import Names
+from pydart2.skeleton import Skeleton
 from pydart2.world import World
 
 Vector = TypeVar("Vector", bound=NDArray[np.float64])
@@ -56,6 +57,7 @@ class NamedVector(np.ndarray[tuple[int], np.dtype[np.float64]]):
     def __setitem__(self, key: Any, value: Any) -> None: ...
 
 class ContactRow:
+    _skeletons: tuple[Skeleton, ...] | None
     world: World
     state: NDArray[np.float64]
     point: NDArray[np.float64]
@@ -72,7 +74,7 @@ class ContactRow:
     depth: float
     def __init__(self, _world: World, _state: ArrayLike) -> None: ...
     @classmethod
-    def from_rows(cls, world: World, rows: ArrayLike) -> list[Self]: ...
+    def from_rows(cls, world: World, rows: ArrayLike, skeletons: tuple[Skeleton, ...]) -> list[Self]: ...
 
 class IntVector(list[int]): ...
 

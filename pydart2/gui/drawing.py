@@ -11,8 +11,8 @@ from OpenGL import GL
 
 from pydart2 import screen
 from pydart2.gui.context import ContextError, before_free, current_context
-from pydart2.gui.renderer import SceneRenderer
-from pydart2.gui.scene import Scene
+from pydart2.gui.draw_list import Scene
+from pydart2.gui.scene_renderer import SceneRenderer
 from pydart2.gui.shapes import add_shapenode
 from pydart2.simulation.up import up_of
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from pydart2.errors import NameNotFound
 from pydart2.gui.camera import MARGIN, Camera, nearest
 from pydart2.gui.camera_control import FIELD_OF_VIEW
+from pydart2.gui.draw_list import NOBODY, Item, Scene, from_world
 from pydart2.gui.placing import boxes, corners
-from pydart2.gui.scene import NOBODY, Item, Scene, from_world
 from pydart2.simulation.up import Axis, is_z_up
 
 if TYPE_CHECKING:

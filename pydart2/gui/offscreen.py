@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.gui import context as contexts
-from pydart2.gui import scene as scenes
+from pydart2.gui import draw_list
 from pydart2.gui.camera import Camera, as_camera
 from pydart2.gui.first_look import floor_of, look
 from pydart2.gui.trackball import Trackball
 
 if TYPE_CHECKING:
-    from pydart2.gui.scene import Item
+    from pydart2.gui.draw_list import Item
     from pydart2.gui.targets import BodiesTarget, ColorTarget
 
 CameraLike = int | str | Trackball | Camera | tuple[ArrayLike, float] | None
@@ -157,8 +157,8 @@ class OffscreenRenderer:
         target: BodiesTarget = self._target(BodiesTarget, *size)
         target.begin()
         collision_shapes = self.scene.show.collision_shapes
-        show = scenes.Show(markers=False, contacts=False, forces=False, collision_shapes=collision_shapes)
-        scene = scenes.from_world(world, show)
+        show = draw_list.Show(markers=False, contacts=False, forces=False, collision_shapes=collision_shapes)
+        scene = draw_list.from_world(world, show)
         drawing.renderer().draw_bodies(scene, camera.view, camera.projection(size[0] / size[1]))
         return target.read_depth() if mode == "depth" else target.read_ids()
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pydart2.gui import geometry
-from pydart2.gui.scene import Item, Scene, Show, size_of_signs
+from pydart2.gui.draw_list import Item, Scene, Show, size_of_signs
 from pydart2.skeleton import Skeleton
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from pydart2.gui.scene import Item
+    from pydart2.gui.draw_list import Item
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from OpenGL import GL
 
 from pydart2.gui import placing, shaders
-from pydart2.gui.scene import Item
+from pydart2.gui.draw_list import Item
 
 Matrix = NDArray[np.float64]
 

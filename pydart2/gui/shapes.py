@@ -18,7 +18,7 @@ from pydart2.softbody import SoftBodyNode
 
 if TYPE_CHECKING:
     from pydart2._native import MeshHandle
-    from pydart2.gui.scene import Scene
+    from pydart2.gui.draw_list import Scene
     from pydart2.shapenode import ShapeNode
 
 Array = NDArray[np.float64]

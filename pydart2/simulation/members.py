@@ -182,11 +182,12 @@ class Members(WorldPart):
         if skel not in self.skeletons:
             raise ValueError(f"{skel!r} is not in {self!r}")
         self.collision_result._look()  # the engine forgets them
-        self._handle.remove_skeleton(skel.id)
-        self.collision_result._forget_skeleton(skel.id)
+        index = skel.id
+        self._handle.remove_skeleton(index)
         self.skeletons.remove(skel)
         for i, other in enumerate(self.skeletons):
             other.id = i
+        self.collision_result._forget_skeleton(index)
         self._find_controllers()
 
     def _load(self, model: Readable, cls: type[Skeleton] | None) -> Skeleton:

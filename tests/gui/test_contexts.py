@@ -169,7 +169,7 @@ def heavy():
     return sorted({m.split(".")[0] for m in sys.modules} & {"OpenGL", "PyQt5", "scipy", "PIL"})
 assert not heavy() and "pydart2.gui" not in sys.modules, heavy()
 pydart2.gui.Trackball, pydart2.gui.Camera
-import pydart2.gui.scene, pydart2.gui.shapes
+import pydart2.gui.draw_list, pydart2.gui.shapes
 assert not heavy(), heavy()
 pydart2.gui.render
 assert not heavy(), heavy()
@@ -180,7 +180,7 @@ assert not heavy(), heavy()
 def test_a_core_profile_or_an_old_context_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     from OpenGL import GL
 
-    from pydart2.gui import renderer
+    from pydart2.gui import scene_renderer as renderer
 
     answers = {GL.GL_MAJOR_VERSION: 3, GL.GL_MINOR_VERSION: 1, GL.GL_CONTEXT_PROFILE_MASK: 1}
     monkeypatch.setattr(renderer.GL, "glGetIntegerv", answers.__getitem__)

@@ -10,8 +10,8 @@ from PIL import Image, ImageSequence
 
 import pydart2
 from pydart2.gui import OffscreenRenderer
+from pydart2.gui.draw_list import from_world
 from pydart2.gui.first_look import VIEWS, floor_of, look
-from pydart2.gui.scene import from_world
 
 BOX = """<robot name="box"><link name="box">
   <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>

@@ -171,6 +171,27 @@ def test_contacts_after_a_skeleton_was_removed(world: pydart2.World) -> None:
         world.step()
 
 
+def test_kept_contacts_name_their_bodies_when_others_go(world: pydart2.World) -> None:
+    """They know the skeletons of their moment, whose numbers change: also in copies and pickles."""
+    ground, low, _ = world.skeletons
+    extra = world.add_box([0.2, 0.2, 0.2], 1.0, [5.0, 0.09, 0.0])
+    world.step()
+    contacts, arrays = world.collision_result.contacts, extra.contacts
+    pairs = [(c.bodynode1, c.bodynode2) for c in contacts]
+    named = {body for pair in pairs for body in pair}
+    assert named == {ground.bodynodes[0], low.bodynodes[0], extra.bodynodes[0]}
+    world.remove_skeleton(world.skeletons[2])  # extra is the third now
+    assert [(c.bodynode1, c.bodynode2) for c in contacts] == pairs
+    assert {arrays[0].bodynode1, arrays[0].bodynode2} == {ground.bodynodes[0], extra.bodynodes[0]}
+    world.remove_skeleton(low)  # and the second
+    without = [tuple(None if body is low.bodynodes[0] else body for body in pair) for pair in pairs]
+    assert [(c.bodynode1, c.bodynode2) for c in contacts] == without
+    assert [(c.bodynode1, c.bodynode2) for c in world.collision_result.contacts] == without
+    copies = [copy.copy(c) for c in contacts]
+    assert [(c.bodynode1, c.bodynode2) for c in copies] == without
+    assert {skel for c in copies for skel in (c.skel_id1, c.skel_id2)} == {0, 1, -1}
+
+
 def test_order_of_bodies_is_that_of_the_contacts(cubes: pydart2.World) -> None:
     cubes.step(100)
     result = cubes.collision_result

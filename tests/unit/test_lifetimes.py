@@ -216,7 +216,8 @@ def test_removed_while_it_touches_and_is_held() -> None:
         result = world.collision_result
         contacts = result.contacts
         world.remove_skeleton(cube)
-        [(c.bodynode1, c.bodynode2, repr(c)) for c in contacts]
+        assert contacts and {b for c in contacts for b in (c.bodynode1, c.bodynode2)} == {None, ground.bodynodes[0]}
+        assert all(repr(c).startswith("[Contact") for c in contacts)
         result.update()
         assert result.contacts == []
         world.step(5)
@@ -232,11 +233,14 @@ def test_stale_contacts_and_results() -> None:
     world.step(50)
     result, contact = world.collision_result, world.collision_result.contacts[0]
     copy = result.copy()
+    body, others, force = contact.bodynode1, copy.contacted_bodies, contact.f
     world.destroy()
-    contact.f, contact.point, copy.num_contacts(), copy.rows, repr(contact)
+    assert np.array_equal(contact.f, force) and np.array_equal(copy.rows[0, :3], contact.point)
+    assert copy.num_contacts() == len(copy.rows) > 0 and repr(contact).startswith("[Contact")
     del world
     gc.collect()
-    contact.bodynode1, copy.contacted_bodies
+    assert contact.bodynode1 is body and copy.contacted_bodies == others and len(others) > 1
+    refused(lambda: body.T)
     """)
 
 

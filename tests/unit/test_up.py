@@ -11,8 +11,8 @@ import pytest
 
 import pydart2
 from physics.models import creature, save_skeleton
+from pydart2.gui.draw_list import from_world
 from pydart2.gui.first_look import open_world
-from pydart2.gui.scene import from_world
 from pydart2.simulation.up import up_of
 
 ATLAS = "sdf/atlas/atlas_v3_no_head.sdf"

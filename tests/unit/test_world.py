@@ -138,6 +138,14 @@ def test_controllers(tmp_path: Path) -> None:
     assert controller.calls == 10
 
 
+def test_each_controller_acts(tmp_path: Path) -> None:
+    world = make_world(tmp_path, slider(1.0), slider(2.0).replace("slider", "second"))
+    for skel, force in zip(world.skeletons, (3.0, 8.0), strict=True):
+        skel.controller = lambda force=force: [force]  # type: ignore[misc]
+    world.step()
+    np.testing.assert_allclose([skel.ddq[0] for skel in world.skeletons], [3.0, 4.0])
+
+
 def test_an_error_in_a_controller_comes_out(tmp_path: Path) -> None:
     class Broken:
         def compute(self) -> list[float]:
@@ -148,6 +156,24 @@ def test_an_error_in_a_controller_comes_out(tmp_path: Path) -> None:
     with pytest.raises(ZeroDivisionError, match="controller"):
         world.step()
     assert world.frame == 0
+
+
+def test_an_error_in_a_later_step_leaves_the_contacts_of_the_one_before(tmp_path: Path) -> None:
+    ball = free_body("ball", at=(0, 0.49, 0, 0, 0, 0), shape="<sphere><radius>0.5</radius></sphere>")
+    world, other = (make_world(tmp_path, floor(), ball, slider()) for _ in range(2))
+
+    def compute() -> list[float]:
+        if world.frame == 3:
+            raise ZeroDivisionError
+        return [1.0]
+
+    world.skeletons[2].controller, other.skeletons[2].controller = compute, lambda: [1.0]
+    world.step()
+    assert world.collision_result.num_contacts() > 0  # has been looked at
+    with pytest.raises(ZeroDivisionError):
+        world.step(5)
+    other.step(3)
+    np.testing.assert_array_equal(world.collision_result.rows, other.collision_result.rows)
 
 
 def test_subclass_hooks() -> None:

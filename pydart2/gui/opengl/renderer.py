@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from OpenGL import GL
 
 from pydart2.gui import drawing, geometry
+from pydart2.gui.draw_list import between
 from pydart2.gui.geometry import Mesh
 from pydart2.gui.opengl.flat import FlatRenderer, number, numbers
-from pydart2.gui.scene import between
 
 Array = NDArray[np.float64]
 

@@ -10,9 +10,9 @@ from OpenGL import GL
 
 from pydart2.gui import drawing
 from pydart2.gui.camera import Camera, default_trackballs
+from pydart2.gui.draw_list import Show
 from pydart2.gui.opengl.renderer import Renderer
-from pydart2.gui.renderer import Style, blend
-from pydart2.gui.scene import Show
+from pydart2.gui.scene_renderer import Style, blend
 from pydart2.gui.trackball import Trackball
 from pydart2.simulation.up import up_of
 

@@ -9,7 +9,7 @@
 #include "base/interrupt.hpp"
 #include "base/parallel.hpp"
 #include "state/stepping.hpp"
-#include "state/world_states.hpp"
+#include "state/state_vector.hpp"
 
 namespace pydart2 {
 

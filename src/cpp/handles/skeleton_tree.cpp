@@ -1,13 +1,19 @@
+// Bodies that come and go, and the joint of the root.
+
 #include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/dynamics/FreeJoint.hpp>
 #include <set>
 
 #include "base/checks.hpp"
 #include "collision/detector.hpp"
 #include "handles/skeleton.hpp"
 #include "loading/built.hpp"
+#include "loading/root_joint.hpp"
 #include "state/clone.hpp"
 
 namespace pydart2 {
+
+using dart::dynamics::Joint;
 
 namespace {
 
@@ -108,6 +114,72 @@ void SkeletonHandle::check_new_name(const std::string& name, bool taken, const c
     throw Error(Kind::value, std::string("a ") + what + " needs a name");
   if (taken)
     throw Error(Kind::value, "skeleton '" + skeleton().getName() + "' has a " + what + " '" + name + "' already");
+}
+
+void SkeletonHandle::check_root_can_change(const char* what) const
+{
+  if (skeleton().getNumBodyNodes() == 0)
+    throw Error(Kind::value, std::string(what) + " needs a skeleton with a body; '" + name() + "' has none");
+  check_tree_can_change(what);
+}
+
+void SkeletonHandle::check_tree_can_change(const char* what) const
+{
+  if (skeleton_.skeleton->motors.targets())
+    throw Error(
+        Kind::value,
+        std::string(what) + " cannot change skeleton '" + name() + "' while its dofs have targets; call clear_targets() first");
+  for (const auto& record : skeleton_.world->constraints)
+    if (record.skeleton1 == skeleton_.skeleton->skeleton || record.skeleton2 == skeleton_.skeleton->skeleton)
+      throw Error(
+          Kind::value,
+          std::string(what) + " cannot change skeleton '" + name()
+              + "' while a constraint holds it; call world.remove_all_constraints() first");
+}
+
+void SkeletonHandle::forget_root_armature()
+{
+  auto& joint = *skeleton().getRootJoint();
+  for (std::size_t i = 0; i < joint.getNumDofs(); ++i)
+    skeleton_.skeleton->armature.erase(joint.getDof(i));
+}
+
+void SkeletonHandle::set_root_joint_to_trans_and_euler()
+{
+  check_root_can_change("set_root_joint_to_trans_and_euler()");
+  forget_root_armature();
+  change_root_to_trans_and_euler(skeleton());
+  tree_changed(RootChange::trans_and_euler);
+}
+
+void SkeletonHandle::set_root_joint_to_weld()
+{
+  check_root_can_change("set_root_joint_to_weld()");
+  forget_root_armature();
+  change_root_to_weld(skeleton());
+  tree_changed(RootChange::weld);
+}
+
+void SkeletonHandle::set_root_joint_to_free()
+{
+  check_root_can_change("set_root_joint_to_free()");
+  const Joint& joint = *skeleton().getRootJoint();
+  if (joint.getType() == dart::dynamics::FreeJoint::getStaticType())
+    return;
+  if (joint.getNumDofs() > 0)
+    throw Error(
+        Kind::value,
+        "the root of skeleton '" + name() + "' is on a " + joint.getType() + ", '" + joint.getName()
+            + "'; only a root that is fixed can be made free");
+  change_root_to_free(skeleton());
+  tree_changed(RootChange::free);
+}
+
+void SkeletonHandle::tree_changed(RootChange change)
+{
+  if (!skeleton_.skeleton->built)
+    skeleton_.skeleton->root_changes.push_back(change);
+  skeleton_.world->tree_changed(*skeleton_.skeleton);
 }
 
 } // namespace pydart2

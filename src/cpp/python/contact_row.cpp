@@ -19,6 +19,7 @@ struct ContactRow
 {
   PyObject_HEAD
   PyObject* world;
+  PyObject* skeletons; ///< That the ids in the row are about; null for those that the world has now.
   double row[contact_columns];
 };
 
@@ -27,14 +28,15 @@ const double* row_of(PyObject* self)
   return reinterpret_cast<ContactRow*>(self)->row;
 }
 
-/// A new contact of this type; `row` has `size` numbers.
-PyObject* make(PyTypeObject* type, PyObject* world, const double* row, npy_intp size)
+/// A new contact of this type; `row` has `size` numbers, `skeletons` may be null.
+PyObject* make(PyTypeObject* type, PyObject* world, PyObject* skeletons, const double* row, npy_intp size)
 {
   PyObject* self = type->tp_alloc(type, 0);
   if (self == nullptr)
     return nullptr;
   auto* contact = reinterpret_cast<ContactRow*>(self);
   contact->world = Py_NewRef(world);
+  contact->skeletons = Py_XNewRef(skeletons);
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   const double rest[] = {-1.0, -1.0, unknown, unknown, unknown, unknown};
   std::copy(rest, rest + 6, contact->row + documented_columns);
@@ -66,15 +68,15 @@ PyObject* create(PyTypeObject* type, PyObject* args, PyObject* keywords)
   PyArrayObject* array = read(state, 1, true);
   if (array == nullptr)
     return nullptr;
-  PyObject* self = make(type, world, static_cast<const double*>(PyArray_DATA(array)), PyArray_DIM(array, 0));
+  PyObject* self = make(type, world, nullptr, static_cast<const double*>(PyArray_DATA(array)), PyArray_DIM(array, 0));
   Py_DECREF(array);
   return self;
 }
 
 PyObject* from_rows(PyObject* type, PyObject* args)
 {
-  PyObject *world, *rows;
-  if (!PyArg_ParseTuple(args, "OO:from_rows", &world, &rows))
+  PyObject *world, *rows, *skeletons = nullptr;
+  if (!PyArg_ParseTuple(args, "OO|O:from_rows", &world, &rows, &skeletons))
     return nullptr;
   PyArrayObject* array = read(rows, 2, false);
   if (array == nullptr)
@@ -83,7 +85,7 @@ PyObject* from_rows(PyObject* type, PyObject* args)
   const auto* row = static_cast<const double*>(PyArray_DATA(array));
   PyObject* list = PyList_New(count);
   for (npy_intp i = 0; list != nullptr && i < count; ++i, row += contact_columns) {
-    PyObject* contact = make(reinterpret_cast<PyTypeObject*>(type), world, row, contact_columns);
+    PyObject* contact = make(reinterpret_cast<PyTypeObject*>(type), world, skeletons, row, contact_columns);
     if (contact == nullptr)
       Py_CLEAR(list);
     else
@@ -137,16 +139,24 @@ PyObject* get_world(PyObject* self, void*)
   return Py_NewRef(world == nullptr ? Py_None : world); // none once the collector has cleared a cycle
 }
 
+PyObject* get_skeletons(PyObject* self, void*)
+{
+  PyObject* skeletons = reinterpret_cast<ContactRow*>(self)->skeletons;
+  return Py_NewRef(skeletons == nullptr ? Py_None : skeletons);
+}
+
 int traverse(PyObject* self, visitproc visit, void* arg)
 {
   Py_VISIT(Py_TYPE(self));
   Py_VISIT(reinterpret_cast<ContactRow*>(self)->world);
+  Py_VISIT(reinterpret_cast<ContactRow*>(self)->skeletons);
   return 0;
 }
 
 int clear(PyObject* self)
 {
   Py_CLEAR(reinterpret_cast<ContactRow*>(self)->world);
+  Py_CLEAR(reinterpret_cast<ContactRow*>(self)->skeletons);
   return 0;
 }
 
@@ -164,6 +174,7 @@ Columns shape1{10, 1}, shape2{11, 1}, normal{12, 3}, depth{15, 1};
 
 PyGetSetDef getset[] = {
     {"world", get_world, nullptr, "The world.", nullptr},
+    {"_skeletons", get_skeletons, nullptr, "Those that the ids are about; None for the world's present ones.", nullptr},
     {"state", get_vector, nullptr, "Point, force and the ids of skeletons and bodies, shape (10,).", &state},
     {"point", get_vector, nullptr, "Where the bodies touch, shape (3,), m.", &point},
     {"p", get_vector, nullptr, "Same as point.", &point},
@@ -180,7 +191,7 @@ PyGetSetDef getset[] = {
     {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
 PyMethodDef methods[] = {
-    {"from_rows", from_rows, METH_VARARGS | METH_CLASS, "from_rows(world, rows): a list of contacts; rows of shape (n, 16)."},
+    {"from_rows", from_rows, METH_VARARGS | METH_CLASS, "from_rows(world, rows, skeletons): a list of contacts; rows of shape (n, 16), and what their ids are about."},
     {"__reduce__", reduce, METH_NOARGS, nullptr},
     {nullptr, nullptr, 0, nullptr}};
 

@@ -9,8 +9,8 @@
 #include "loading/loading.hpp"
 #include "loading/root_joint.hpp"
 #include "state/manager.hpp"
-#include "state/model.hpp"
-#include "state/state.hpp"
+#include "state/model_archive.hpp"
+#include "state/snapshot.hpp"
 
 namespace pydart2 {
 

@@ -22,7 +22,7 @@
 #include "state/dof_state.hpp"
 #include "state/limits.hpp"
 #include "state/sleeping.hpp"
-#include "state/state.hpp"
+#include "state/snapshot.hpp"
 
 namespace pydart2 {
 

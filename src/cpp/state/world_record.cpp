@@ -8,7 +8,9 @@
 #include "collision/detector.hpp"
 #include "contact/fast_solver.hpp"
 #include "dynamics/tree_dynamics.hpp"
+#include "state/contact.hpp"
 #include "state/sleeping.hpp"
+#include "state/state_vector.hpp"
 
 namespace pydart2 {
 
@@ -80,6 +82,16 @@ void WorldRecord::clear()
   sleep = {};
   skeletons.clear();
   world.reset();
+}
+
+void WorldRecord::record_frame()
+{
+  const auto& frame
+      = recording.add(static_cast<std::size_t>(num_states(*this)), num_contacts(*this), layout, world->getTime());
+  write_states(*this, frame.state);
+  write_contacts(*this, frame.contacts());
+  for (const auto& skeleton : skeletons)
+    skeleton->recorded = true;
 }
 
 void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::string& source)

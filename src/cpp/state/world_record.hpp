@@ -122,6 +122,9 @@ struct WorldRecord
   /// Frees what belongs to the world.
   void clear();
 
+  /// The present state and contacts, as a frame more of the recording.
+  void record_frame();
+
   /// Throws unless this world may be used now.
   void check() const
   {

@@ -1,4 +1,4 @@
-#include "state/state.hpp"
+#include "state/snapshot.hpp"
 
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/DegreeOfFreedom.hpp>

@@ -1,4 +1,4 @@
-#include "state/model.hpp"
+#include "state/model_archive.hpp"
 
 #include <algorithm>
 #include <dart/dynamics/DegreeOfFreedom.hpp>

@@ -13,8 +13,8 @@ from OpenGL import GL
 from pydart2.gui import shaders
 from pydart2.gui.buffers import INSTANCE_FLOATS, Pool, Textures
 from pydart2.gui.context import ContextError, current_context, load_opengl
+from pydart2.gui.draw_list import Item, Scene, Show
 from pydart2.gui.geometry import Mesh
-from pydart2.gui.scene import Item, Scene, Show
 from pydart2.gui.shaders import Program
 from pydart2.gui.shadow import ShadowMap
 

@@ -10,8 +10,8 @@ import pytest
 
 import pydart2
 from pydart2.gui import geometry
+from pydart2.gui.draw_list import Item, Scene, Show, from_world
 from pydart2.gui.placing import between, boxes
-from pydart2.gui.scene import Item, Scene, Show, from_world
 from pydart2.gui.shapes import add_shapenode
 from pydart2.simulation.up import up_of
 

@@ -1,12 +1,12 @@
-// What WorldHandle offers of state.hpp, model.hpp and clone.hpp.
+// What WorldHandle offers of snapshot.hpp, model_archive.hpp and clone.hpp.
 
 #include <algorithm>
 
 #include "base/archive.hpp"
 #include "handles/world.hpp"
 #include "state/clone.hpp"
-#include "state/model.hpp"
-#include "state/state.hpp"
+#include "state/model_archive.hpp"
+#include "state/snapshot.hpp"
 
 namespace pydart2 {
 

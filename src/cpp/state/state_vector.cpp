@@ -1,4 +1,4 @@
-#include "state/world_states.hpp"
+#include "state/state_vector.hpp"
 
 #include "state/sleeping.hpp"
 
