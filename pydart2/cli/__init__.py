@@ -49,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(1)
     except (PydartError, OSError, ValueError, ImportError) as error:
-        sys.exit(f"pydart2 {args.command}: {error}")
+        sys.exit(f"pydart2 {args.command}: {_sentence(error)}")
     except KeyboardInterrupt:
         sys.exit(130)
 
@@ -67,6 +67,13 @@ def parser() -> argparse.ArgumentParser:
     for module in _MODULES:
         module.add(commands)
     return top
+
+
+def _sentence(error: Exception) -> str:
+    """Without the number that a system's errors begin with."""
+    if isinstance(error, OSError) and error.strerror and error.filename is not None:
+        return f"{error.strerror}: {error.filename!r}"
+    return str(error)
 
 
 def _print(answer: Any, args: argparse.Namespace) -> None:

@@ -7,7 +7,7 @@ import time
 from typing import Any
 
 import pydart2
-from pydart2.cli.models import add_file, add_ground
+from pydart2.cli.models import add_file, add_standing
 from pydart2.cli.report import Report, table
 from pydart2.gui.first_look import open_world
 from pydart2.simulation.step_options import DETECTORS
@@ -22,14 +22,14 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = commands.add_parser("bench", help="steps a second, where the time goes, what would be faster")
     add_file(parser)
-    add_ground(parser)
+    add_standing(parser)
     parser.add_argument("--json", action="store_true", help="as JSON")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> Report:
     """Measure the world as it is, and with each other detector and solver."""
-    world = open_world(args.file, not args.no_ground)
+    world = open_world(args.file, not args.no_ground, fixed=args.fixed)
     world.disable_recording()
     own = world.collision_detector(), world.constraint_solver()
     others = [(d, s) for d in DETECTORS for s in _SOLVERS if (d, s) != own]

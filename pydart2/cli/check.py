@@ -92,7 +92,7 @@ def _of_body(body: BodyNode) -> Iterator[str]:
     if not body.m > 0.0:  # frames, of tools and cameras, have none
         if body.parent_joint.num_dofs() and not any(below.m > 0.0 for below in tree(body)):
             yield f"{where} moves, and neither it nor what hangs on it has mass"
-    elif moments[0] <= 0.0:
+    elif moments[0] < 0.0 or (moments[0] == 0.0 and body.parent_joint.num_dofs()):
         yield f"{where} has moments of inertia that are not positive: {_list(moments)} kg m²"
     elif moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-6):
         reason = "the largest is above the sum of the others"

@@ -35,3 +35,4 @@ def run(args: argparse.Namespace) -> None:
         world.skeletons[0].save(args.output, strict=args.strict)
     else:
         world.save(args.output, strict=args.strict)
+    print(args.output)

@@ -16,8 +16,9 @@ def add_file(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=_KINDS)
 
 
-def add_ground(parser: argparse.ArgumentParser) -> None:
-    """Let a command take the choice to have no ground."""
+def add_standing(parser: argparse.ArgumentParser) -> None:
+    """Let a command take what holds the model: a ground, by default, or the world."""
+    parser.add_argument("--fixed", action="store_true", help="weld its root to the world, as an arm's on a table")
     parser.add_argument("--no-ground", action="store_true", help="let it fall: add no ground where the file has none")
 
 

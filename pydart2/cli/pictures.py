@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from pydart2.cli.models import add_file, add_ground
+from pydart2.cli.models import add_file, add_standing
 from pydart2.gui.first_look import VIEWS, open_world
 
 
@@ -14,7 +14,7 @@ def add(commands: Any) -> None:
     """Add the commands."""
     view = commands.add_parser("view", help="show a file in a window")
     add_file(view)
-    add_ground(view)
+    add_standing(view)
     view.set_defaults(run=run_view)
 
     render = commands.add_parser("render", help="make a picture of a file")
@@ -24,7 +24,7 @@ def add(commands: Any) -> None:
 
     record = commands.add_parser("record", help="simulate a file and make a movie of it")
     add_file(record)
-    add_ground(record)
+    add_standing(record)
     _add_picture(record, "out.mp4", "file to write: .mp4, .webp, .gif")
     record.add_argument("--seconds", type=float, default=5.0, metavar="S", help="how long to simulate (5)")
     record.add_argument("--fps", type=float, default=30.0, help="pictures a second (30)")
@@ -48,7 +48,7 @@ def run_view(args: argparse.Namespace) -> None:
     """Open a window until it is closed."""
     from pydart2.gui import viewer
 
-    viewer.launch(open_world(args.file, not args.no_ground), Path(args.file).name)
+    viewer.launch(open_world(args.file, not args.no_ground, fixed=args.fixed), Path(args.file).name)
 
 
 def run_render(args: argparse.Namespace) -> None:
@@ -66,6 +66,6 @@ def run_record(args: argparse.Namespace) -> None:
     """Write a movie."""
     from pydart2 import gui
 
-    world = open_world(args.file, not args.no_ground)
+    world = open_world(args.file, not args.no_ground, fixed=args.fixed)
     gui.record(world, args.output, args.seconds, args.fps, args.camera, args.size)
     print(args.output)

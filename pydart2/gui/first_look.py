@@ -37,11 +37,13 @@ _TIME_STEP = 0.001  # s, of a file that has none
 _TIME_STEPS = {"skel": "world/physics/time_step", "sdf": "world/physics/max_step_size"}
 
 
-def open_world(path: str | os.PathLike[str], ground: bool = False, step: float | None = None) -> World:
+def open_world(
+    path: str | os.PathLike[str], ground: bool = False, step: float | None = None, fixed: bool = False
+) -> World:
     """A world with what a file holds, with the file's gravity if it has one, else along the format's down.
 
     With `ground`, what has no floor gets one, right under it, where there is gravity along it. Without a `step`, in s,
-    it is the file's own, or 1 ms.
+    it is the file's own, or 1 ms. `fixed` welds roots that float to the world.
     """
     from pydart2.loading import read_model
     from pydart2.world import World
@@ -49,6 +51,8 @@ def open_world(path: str | os.PathLike[str], ground: bool = False, step: float |
     model: Any = read_model(path)
     up: Axis | None = None if model.has_world else "z" if is_z_up(model) else "y"
     world = World(_time_step(model) if step is None else step, model, up=up)
+    for skel in (skel for skel in world.skeletons if fixed and skel.ndofs and skel.joints[0].type() == "FreeJoint"):
+        skel.set_root_joint_to_weld()
     if ground and -world.gravity() @ world.up > 0.0:
         height = height_of_floor(world)
         if height is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
 from types import TracebackType
@@ -49,9 +50,13 @@ def record(
 
     Raises
     ------
+    ValueError
+        If `seconds`, `fps` or `speed` is not positive.
     SimulationError
         If user code raises; the message is its traceback. The movie ends there.
     """
+    if not 0.0 < seconds < math.inf:
+        raise ValueError(f"seconds must be positive, got {seconds}")
     runtime = Runtime(sim)
     with Movie(sim, path, fps, camera, size, speed) as movie:
         movie.look()

@@ -13,6 +13,8 @@ from PIL import Image
 
 import pydart2
 from pydart2.cli import main, parser
+from pydart2.gui.first_look import open_world
+from pydart2.models import find
 
 LINK = """<link name="{0}"><inertial><mass value="2"/><inertia ixx="{1}" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>
   </inertial><visual><geometry><box size="1 2 3"/></geometry></visual>
@@ -147,6 +149,13 @@ def test_render_and_record(arm: str, tmp_path: Path) -> None:
     main(["record", arm, *movie])
     with Image.open(tmp_path / "a.gif") as picture:
         assert getattr(picture, "n_frames", 1) == 3
+
+
+def test_an_arm_can_be_welded_to_the_world() -> None:
+    with pytest.raises(SystemExit, match=r"^pydart2 record: seconds must be positive, got -1\.0$"):
+        main(["record", "ur5e", "--fixed", "--seconds", "-1"])
+    assert open_world(find("ur5e"), ground=True, fixed=True).skeletons[0].ndofs == 6
+    assert open_world(find("ur5e")).skeletons[0].ndofs == 12
 
 
 def test_bench_measures_every_choice(

@@ -172,7 +172,7 @@ class Commands:
         if world is not None and not model.has_world:
             self.select(world.add_skeleton(model))
             return
-        step = {} if world is None else {"step": world.dt}
-        self.window.set_simulation(open_world(model, ground=True, **step))
+        step = None if world is None else world.dt
+        self.window.set_simulation(open_world(model, ground=True, step=step))
         self.window.look_upright()
         self.first_look()
