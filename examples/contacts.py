@@ -82,7 +82,7 @@ if __name__ == "__main__":
             print(f"    contact at {contact.point} with force {contact.force}, {1e3 * contact.depth:.3f} mm deep")
         world.reset()
         if args.headless:
-            camera = pydart.gui.Camera.look_at([0.3, 0.0, 0.8], [0.0, -0.3, 0.0], up=[0.0, 1.0, 0.0])
+            camera = pydart.gui.Camera.look_at([0.25, -0.1, 0.55], [0.0, -0.33, 0.0], up=[0.0, 1.0, 0.0])
             rehearse(world, args, REST + PUSH, partial(check, world, push), camera)
         else:
             pydart.gui.viewer.launch(world, title=f"A {name} push")

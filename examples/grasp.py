@@ -14,8 +14,10 @@ class Grasp(pydart.World):
         super().__init__(0.001)
         arm = self.add_empty_skeleton("arm")
         self.hand = arm.add_body("hand", joint="prismatic", axis=(0, 1, 0), position=(0, 0.5, 0))
-        self.hand.add_box((0.1, 0.05, 0.1))
-        self.cube = self.add_box((0.1, 0.1, 0.1), mass=5.0, position=(0, 0.4, 0)).bodynodes[0]
+        self.hand.add_box((0.1, 0.05, 0.1), color=(0.3, 0.33, 0.38))
+        orange = (0.95, 0.5, 0.1)
+        self.cube = self.add_box((0.1, 0.1, 0.1), mass=5.0, position=(0, 0.4, 0), color=orange).bodynodes[0]
+        self.add_ground()
         arm.set_targets([0.0], kp=1e4, kd=1e3, compensate="gravity")
         self.grasp = WeldJointConstraint(self.hand, self.cube)
         self.grasp.add_to_world(self)
@@ -36,6 +38,8 @@ if __name__ == "__main__":
     args = arguments()
     world = Grasp()
     if args.headless:
-        rehearse(world, args, 1000, lambda: {f"the cube slips by {1e3 * world.gap:.3f} mm at most": world.gap < 5e-4})
+        camera = pydart.gui.Camera.look_at([0.95, 0.65, 1.0], [0.0, 0.42, 0.0], up=[0.0, 1.0, 0.0])
+        slip = lambda: {f"the cube slips by {1e3 * world.gap:.3f} mm at most": world.gap < 5e-4}  # noqa: E731
+        rehearse(world, args, 1400, slip, camera)
     else:
         pydart.gui.viewer.launch(world)

@@ -94,7 +94,7 @@ if __name__ == "__main__":
     world = MyWorld()
 
     if args.headless:
-        rehearse(world, args, steps=2000, check=lambda: check(world), camera=1)
+        rehearse(world, args, steps=2000, check=lambda: check(world), camera=None)
     else:
         win = pydart.gui.viewer.PydartWindow(world)
         win.camera_event(1)

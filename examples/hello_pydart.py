@@ -33,6 +33,5 @@ if __name__ == "__main__":
         world.step()
 
     if args.headless:
-        camera = pydart.gui.Camera.look_at([0.3, 0.1, 0.9], [0.0, -0.28, 0.0], up=[0.0, 1.0, 0.0])
-        Clip(world, args, camera).save()
+        Clip(world, args, None).save()
         finish(args, 4000, lambda: check(world))

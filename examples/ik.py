@@ -119,7 +119,7 @@ if __name__ == "__main__":
     world = MyWorld()
 
     if args.headless:
-        rehearse(world, args, steps=18, check=lambda: check(world), camera=1, every=1)
+        rehearse(world, args, steps=18, check=lambda: check(world), camera=None, every=1)
     else:
         win = pydart.gui.pyqt5.window.PyQt5Window(world)
         win.scene.set_camera(1)  # Z-up Camera

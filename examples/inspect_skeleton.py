@@ -97,4 +97,4 @@ if __name__ == "__main__":
         sys.exit(0)
     world = main(args.model)
     if args.headless:
-        rehearse(world, args, steps=0, camera=1)
+        rehearse(world, args, steps=0, camera=None)

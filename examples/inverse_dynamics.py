@@ -70,6 +70,6 @@ if __name__ == "__main__":
     robot.set_controller(controller)
 
     if args.headless:
-        rehearse(world, args, steps=2000, check=lambda: check(controller), camera=1)
+        rehearse(world, args, steps=2000, check=lambda: check(controller), camera=None)
     else:
         pydart.gui.viewer.launch(world, default_camera=1)

@@ -12,9 +12,9 @@ if __name__ == "__main__":
     world = pydart.World(0.005)
     arm = world.add_empty_skeleton("arm")
     upper = arm.add_body("upper", joint="revolute", axis=(0, 0, 1))
-    upper.add_box((0.5, 0.08, 0.08), mass=3.0, position=(0.25, 0, 0))
+    upper.add_box((0.5, 0.08, 0.08), mass=3.0, position=(0.25, 0, 0), color=(0.95, 0.5, 0.1))
     fore = arm.add_body("fore", upper, "revolute", axis=(0, 0, 1), position=(0.5, 0, 0))
-    fore.add_box((0.4, 0.06, 0.06), mass=2.0, position=(0.2, 0, 0))
+    fore.add_box((0.4, 0.06, 0.06), mass=2.0, position=(0.2, 0, 0), color=(0.3, 0.33, 0.38))
     for dof in arm.dofs:
         dof.set_force_upper_limit(40.0)
         dof.set_force_lower_limit(-40.0)
@@ -27,6 +27,6 @@ if __name__ == "__main__":
         return {f"each joint is at most {off:.1e} rad from its target, held by {most:.1f} N m": off < 1e-4}
 
     if args.headless:
-        rehearse(world, args, 1000, check)
+        rehearse(world, args, 1000, check, camera=None)
     else:
         pydart.gui.viewer.launch(world)

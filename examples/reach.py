@@ -39,6 +39,6 @@ if __name__ == "__main__":
         return {"the hand is at most a micrometre from its target": max(world.residuals) <= 1e-6}
 
     if args.headless:
-        rehearse(world, args, 180, check, camera=1)
+        rehearse(world, args, 180, check, camera=None)
     else:
         pydart.gui.viewer.launch(world)

@@ -61,7 +61,7 @@ if __name__ == "__main__":
     world.restore(start)
     pushed(world, best)
     if args.headless:
-        camera = pydart.gui.Camera.look_at([0.3, 0.1, 0.9], [0.1, -0.28, 0.0], up=[0.0, 1.0, 0.0])
+        camera = pydart.gui.Camera.look_at([0.25, -0.05, 0.6], [0.1, -0.3, 0.0], up=[0.0, 1.0, 0.0])
         rehearse(world, args, steps=0, check=lambda: check(world, start, reached), camera=camera)
     else:
         pydart.gui.viewer.launch(world)

@@ -64,6 +64,6 @@ if __name__ == "__main__":
     print("create controller OK")
 
     if args.headless:
-        rehearse(world, args, steps=4000, check=lambda: check(skel, target), camera=1)
+        rehearse(world, args, steps=4000, check=lambda: check(skel, target), camera=None)
     else:
         pydart.gui.viewer.launch(world, default_camera=1)  # Use Z-up camera
