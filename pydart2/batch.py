@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2._native import BatchHandle
-from pydart2.indexing import Names
+from pydart2.skel_vector import DofArray
 
 if TYPE_CHECKING:
     from pydart2.skeleton import Skeleton
@@ -19,34 +19,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 _CONTACT_COLUMNS = 16  # contact.hpp
-
-
-class DofArray(np.ndarray[Any, np.dtype[np.float64]]):
-    """An array whose last axis is over the dofs of a skeleton: ``q["j_knee"]`` and ``q["j_hip", "j_knee"]`` pick there.
-
-    Any other key is NumPy's, and only the array that was read has the names, not what is computed from it.
-    """
-
-    _names: Names | None = None
-
-    @classmethod
-    def of(cls, values: Array, names: Names) -> DofArray:
-        """The values, any shape and units, without a copy, with names on the last axis."""
-        array = values.view(cls)
-        array._names = names
-        return array
-
-    def __getitem__(self, key: Any) -> Any:
-        return np.asarray(self)[self._resolve(key)]
-
-    def __setitem__(self, key: Any, value: Any) -> None:
-        np.asarray(self)[self._resolve(key)] = value
-
-    def _resolve(self, key: Any) -> Any:
-        keys = key if isinstance(key, (tuple, list)) else [key]
-        if self._names is None or not keys or not all(isinstance(k, str) for k in keys):
-            return key
-        return ..., self._names.resolve(key)[0]
 
 
 @dataclass(frozen=True)
@@ -69,7 +41,8 @@ class Trajectories:
     failed: dict[int, str]
 
     def __repr__(self) -> str:
-        worlds, frames, dofs = self.q.shape
+        worlds, frames = self.states.shape[:2]
+        dofs = self.q.shape[-1]
         return f"[Trajectories: {worlds} worlds, {frames - 1} actions, {dofs} dofs, {len(self.failed)} failed]"
 
 

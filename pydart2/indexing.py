@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import weakref
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
@@ -69,6 +70,26 @@ class Names(dict[Any, int]):
             self._cache[cache_key] = (index, names)
         return index, names
 
+    def resolve_last(self, key: Any, shape: tuple[int, ...]) -> tuple[Any, Names | None]:
+        """As resolve(), for an array of this shape whose last axis they name.
+
+        A name, or several, pick there; so they do as the last of NumPy's indices: ``q[3, "knee"]``, ``q[:9, ["hip"]]``.
+        """
+        if _are_names(key):
+            index, names = self.resolve(key)
+            return (..., index), names
+        if isinstance(key, tuple) and key and _are_names(key[-1]):
+            key = (*key[:-1], self.resolve(key[-1])[0])
+        places = np.broadcast_to(np.arange(len(self.labels)), shape)[key]  # on the last axis, and on all before it
+        others = np.broadcast_to(np.arange(math.prod(shape[:-1])).reshape(*shape[:-1], 1), shape)[key]
+        if places.ndim == 0 or places.size == 0:
+            return key, self if places.shape[-1:] == shape[-1:] else None
+        row = places[(0,) * (places.ndim - 1)]
+        if not (_is_constant(places, range(places.ndim - 1)) and _is_constant(others, [places.ndim - 1])):
+            return key, None
+        whole = len(row) == len(self.labels) and np.array_equal(row, np.arange(len(row)))
+        return key, self if whole else Names((self.labels[i] for i in row), self._skel)
+
     def _to_numpy_index(self, key: Any) -> Any:
         if isinstance(key, np.ndarray) and key.dtype.kind in "UO":
             key = key.tolist()
@@ -77,6 +98,19 @@ class Names(dict[Any, int]):
         if not key:
             return np.empty(0, dtype=np.intp)
         return np.asarray([self.index(k) if isinstance(k, str) else k for k in key])
+
+
+def _is_constant(array: np.ndarray, axes: Iterable[int]) -> bool:
+    """Whether it is the same along some axes. Views that are have strides of 0 there, which is seen at once."""
+    return all(
+        array.strides[axis] == 0 or array.shape[axis] == 1 or not np.ptp(array, axis=axis).any() for axis in axes
+    )
+
+
+def _are_names(key: Any) -> bool:
+    """Whether a key is a name, or some."""
+    several = isinstance(key, (tuple, list)) and len(key) > 0
+    return all(isinstance(k, str) for k in key) if several else isinstance(key, str)
 
 
 def _is_multidimensional(key: Any) -> bool:

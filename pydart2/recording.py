@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from pydart2.batch import DofArray
 from pydart2.collision_result import CollisionResult
 from pydart2.run import Run
+from pydart2.skel_vector import DofArray
 
 if TYPE_CHECKING:
     import os

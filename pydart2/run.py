@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pydart2.batch import DofArray
 from pydart2.errors import NameNotFound, PydartError
 from pydart2.indexing import Names
+from pydart2.skel_vector import DofArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

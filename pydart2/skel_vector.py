@@ -30,8 +30,10 @@ class SkelVector(NamedVector):
     >>> skel.q = q                      # now the robot has moved
 
     Integers, slices, masks and everything else of NumPy work as on any array; a tuple or list of names or integers
-    picks these entries. What is picked, and results of the same length, keep their names; what NumPy puts into another
-    order (sort, partition, take, roll) has none.
+    picks these entries.
+
+    What is picked has the names of what it picks, a result of the same shape those of what it was computed from; all
+    else, and what NumPy puts into another order (sort, partition, take, roll), has none.
 
     Parameters
     ----------
@@ -75,7 +77,7 @@ class SkelVector(NamedVector):
         if isinstance(key, str):
             return self._require_names().index(key)
         if isinstance(key, (int, np.integer)):
-            return int(key) + len(self) if key < 0 else int(key)
+            return int(key) + self.shape[-1] if key < 0 else int(key)
         return None
 
     def __contains__(self, key: object) -> bool:
@@ -104,7 +106,7 @@ class SkelVector(NamedVector):
 
     def __repr__(self) -> str:
         """A table of names and numbers."""
-        if self._names is None:
+        if self._names is None or self.ndim != 1:
             return super().__repr__()
         width = max(map(len, self.keys), default=0)
         rows = (f"  {name:<{width}}  {value: .6g}\n" for name, value in zip(self.keys, self.tolist(), strict=True))
@@ -121,6 +123,43 @@ class SkelVector(NamedVector):
 
     def _require_names(self) -> Names:
         return Names(()) if self._names is None else self._names
+
+
+class DofArray(SkelVector):
+    """An array of two or more axes, the last of which is over the dofs of a skeleton.
+
+    >>> batch.q["j_knee"]               # of all worlds
+    >>> batch.q[3, "j_knee"], batch.q[:8, ["j_hip", "j_knee"]]
+
+    A name, or several, pick there; all other keys are NumPy's. Names are kept and lost as those of a SkelVector.
+    """
+
+    __slots__ = ()
+
+    @classmethod
+    def of(cls, values: np.ndarray, names: Names) -> DofArray:
+        """The values, any shape and units, without a copy, with names on the last axis."""
+        array = values.view(cls)
+        array._names = names
+        return array
+
+    @property
+    def T(self) -> Any:  # noqa: N802 (NumPy's name)
+        """As of any array, in its units, and without names."""
+        return self.transpose()
+
+    @property
+    def mT(self) -> Any:  # noqa: N802 (NumPy's name)
+        """As of any array, in its units, and without names."""
+        return self.swapaxes(-1, -2)
+
+    def transpose(self, *axes: Any) -> Any:
+        """As of any array, and without names."""
+        return np.asarray(self).transpose(*axes)
+
+    def swapaxes(self, *axes: Any) -> Any:
+        """As of any array, and without names."""
+        return np.asarray(self).swapaxes(*axes)
 
 
 def _restore(cls: type[SkelVector], data: np.ndarray, keys: list[str] | None) -> SkelVector:

@@ -64,7 +64,7 @@ def count(n: int, one: str, many: str = "") -> str:
 def table_of_vector(vector: SkelVector) -> str | None:
     """A table of names and numbers in HTML, in the vector's units, that stays small; None without names."""
     keys = vector.keys
-    if not keys:
+    if not keys or vector.ndim != 1:
         return None
     rows = [(i, name, f"{value:.6g}") for i, (name, value) in enumerate(zip(keys, vector.tolist(), strict=True))]
     return _table(("", "name", "value"), rows)

@@ -45,6 +45,17 @@ def test_copies_go_on_as_the_original(detector: str) -> None:
     np.testing.assert_array_equal(world.x, end)
 
 
+@pytest.mark.parametrize("detector", ["fcl", "bullet"])
+@pytest.mark.parametrize("make", ["clone", "pickle"])
+def test_one_copy_goes_on_as_the_original(detector: str, make: str) -> None:
+    """By itself, without a snapshot before it, which makes the world forget what the copy has not."""
+    world = fallen(detector)
+    copied = COPIES[make](world)
+    for one in (world, copied):
+        one.step(150)
+    np.testing.assert_array_equal(copied.x, world.x)
+
+
 def test_an_inexact_copy_leaves_the_original_alone() -> None:
     world, alone = fallen("fcl"), fallen("fcl")
     world.clone(exact=False)

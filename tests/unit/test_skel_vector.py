@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 import pydart2
 from physics.models import arm, make_world
 from pydart2 import NameNotFound, SkelVector
+from pydart2.skel_vector import DofArray
 
 NAMES = ["hinge0", "hinge1", "hinge2", "hinge3"]
 VALUES = [10.0, 11.0, 12.0, 13.0]
@@ -411,3 +412,56 @@ def test_names_do_not_keep_the_world_alive(tmp_path: Path) -> None:
     gc.collect()
     assert v.skel is None
     check(v[1:], NAMES[1:], [0.0] * 3)
+
+
+# Arrays of more axes, the last with the names
+
+
+@pytest.fixture
+def rows(skel: pydart2.Skeleton) -> DofArray:
+    return DofArray.of(np.arange(16.0).reshape(4, 4), skel.names)  # square, so that axes are easily mistaken
+
+
+ROWS = [  # a key, the same for NumPy, the names that the result has
+    ("hinge1", (..., 1), []),
+    (("hinge2", "hinge0"), (..., [2, 0]), ["hinge2", "hinge0"]),
+    (["hinge3"], (..., [3]), ["hinge3"]),
+    ((2, "hinge1"), (2, 1), []),
+    ((slice(1, 3), ["hinge1", "hinge3"]), (slice(1, 3), [1, 3]), ["hinge1", "hinge3"]),
+    (1, 1, NAMES),
+    (slice(0, 2), slice(0, 2), NAMES),
+    ((slice(None), slice(2, None)), (slice(None), slice(2, None)), ["hinge2", "hinge3"]),
+    ((slice(None), slice(None, None, -1)), (slice(None), slice(None, None, -1)), NAMES[::-1]),
+    (np.array([True, False, True, False]), np.array([True, False, True, False]), NAMES),
+    ((slice(None), 0), (slice(None), 0), []),
+    ((..., None), (..., None), []),
+    (([0, 1], [1, 0]), ([0, 1], [1, 0]), []),
+    (slice(0, 0), slice(0, 0), NAMES),
+]
+
+
+@pytest.mark.parametrize(("key", "plain", "names"), ROWS, ids=str)
+def test_the_last_axis_is_picked_by_name(rows: DofArray, key: Any, plain: Any, names: list[str]) -> None:
+    got = rows[key]
+    np.testing.assert_array_equal(got, np.asarray(rows)[plain])
+    assert (got.keys if isinstance(got, DofArray) else []) == names
+    other, expected = rows.copy(), np.array(rows)
+    other[key], expected[plain] = -1.0, -1.0
+    np.testing.assert_array_equal(other, expected)
+
+
+def test_results_of_the_same_shape_keep_the_names_of_the_last_axis(rows: DofArray) -> None:
+    for same in (
+        rows + 1.0,
+        np.sin(rows),
+        rows.copy(),
+        rows[::-1],
+        copy.deepcopy(rows),
+        pickle.loads(pickle.dumps(rows)),
+    ):
+        assert same.keys == NAMES and same["hinge1"].shape == (4,)
+    orders = (rows.T, rows.T + 1.0, np.transpose(rows), np.swapaxes(rows, 0, 1), np.moveaxis(rows, 0, 1), np.sort(rows))
+    for other in (*orders, rows.sum(axis=0), rows.mean(axis=1), rows.reshape(2, 8), rows @ rows.T[:, :3]):
+        assert getattr(other, "keys", []) == [] and isinstance(other, np.ndarray)
+    with pytest.raises(NameNotFound, match="hinge9"):
+        rows["hinge9"]

@@ -30,12 +30,18 @@ void set_names(PyObject* vector, PyObject* names)
   Py_XDECREF(old);
 }
 
-/// The names, or null if there are none or the array has been reshaped since.
+int axes_of(PyObject* vector)
+{
+  return PyArray_NDIM(reinterpret_cast<PyArrayObject*>(vector));
+}
+
+/// The names of the last axis, or null if there are none or the array has been reshaped since.
 PyObject* valid_names(PyObject* vector)
 {
   PyObject* names = names_of(vector);
   auto* array = reinterpret_cast<PyArrayObject*>(vector);
-  if (names == nullptr || PyArray_NDIM(array) != 1 || PyArray_DIM(array, 0) != PyDict_Size(names))
+  const int axes = PyArray_NDIM(array);
+  if (names == nullptr || axes == 0 || PyArray_DIM(array, axes - 1) != PyDict_Size(names))
     return nullptr;
   return names;
 }
@@ -45,14 +51,30 @@ bool is_int(PyObject* key)
   return (PyLong_Check(key) && !PyBool_Check(key)) || PyArray_IsScalar(key, Integer);
 }
 
-/// (index, names of what it picks) for any key but an int; null with a Python error set.
-PyObject* resolve(PyObject* names, PyObject* key)
+PyObject* shape_of(PyObject* vector)
 {
-  static PyObject* const method = PyUnicode_InternFromString("resolve");
-  PyObject* resolved = PyObject_CallMethodOneArg(names, method, key);
+  auto* array = reinterpret_cast<PyArrayObject*>(vector);
+  PyObject* shape = PyTuple_New(PyArray_NDIM(array));
+  for (int axis = 0; shape != nullptr && axis < PyArray_NDIM(array); ++axis)
+    PyTuple_SET_ITEM(shape, axis, PyLong_FromSsize_t(PyArray_DIM(array, axis)));
+  return shape;
+}
+
+/// (index, names of what it picks) for any key but an int of a vector; null with a Python error set.
+PyObject* resolve(PyObject* self, PyObject* names, PyObject* key)
+{
+  static PyObject* const of_one_axis = PyUnicode_InternFromString("resolve");
+  static PyObject* const of_more = PyUnicode_InternFromString("resolve_last");
+  PyObject* resolved = nullptr;
+  if (axes_of(self) == 1) {
+    resolved = PyObject_CallMethodOneArg(names, of_one_axis, key);
+  } else if (PyObject* shape = shape_of(self)) {
+    resolved = PyObject_CallMethodObjArgs(names, of_more, key, shape, nullptr);
+    Py_DECREF(shape);
+  }
   if (resolved != nullptr && !(PyTuple_Check(resolved) && PyTuple_GET_SIZE(resolved) == 2)) {
     Py_DECREF(resolved);
-    PyErr_SetString(PyExc_TypeError, "Names.resolve() must return (index, names)");
+    PyErr_SetString(PyExc_TypeError, "Names must return (index, names)");
     return nullptr;
   }
   return resolved;
@@ -62,15 +84,16 @@ PyObject* subscript(PyObject* self, PyObject* key)
 {
   const auto get = PyArray_Type.tp_as_mapping->mp_subscript;
   PyObject* names = valid_names(self);
-  if (names == nullptr || is_int(key))
+  const bool is_vector = axes_of(self) == 1;
+  if (names == nullptr || (is_vector && is_int(key)))
     return get(self, key);
-  if (PyUnicode_CheckExact(key)) {
+  if (is_vector && PyUnicode_CheckExact(key)) {
     if (PyObject* index = PyDict_GetItemWithError(names, key))
       return get(self, index);
     if (PyErr_Occurred())
       return nullptr;
   }
-  PyObject* resolved = resolve(names, key);
+  PyObject* resolved = resolve(self, names, key);
   if (resolved == nullptr)
     return nullptr;
   PyObject* result = get(self, PyTuple_GET_ITEM(resolved, 0));
@@ -84,9 +107,9 @@ int assign_subscript(PyObject* self, PyObject* key, PyObject* value)
 {
   const auto set = PyArray_Type.tp_as_mapping->mp_ass_subscript;
   PyObject* names = valid_names(self);
-  if (names == nullptr || is_int(key))
+  if (names == nullptr || (axes_of(self) == 1 && is_int(key)))
     return set(self, key, value);
-  PyObject* resolved = resolve(names, key);
+  PyObject* resolved = resolve(self, names, key);
   if (resolved == nullptr)
     return -1;
   const int status = set(self, PyTuple_GET_ITEM(resolved, 0), value);
@@ -95,14 +118,16 @@ int assign_subscript(PyObject* self, PyObject* key, PyObject* value)
 }
 
 /// NumPy calls this on every new instance; `source` is what the array was made from. Views and results of the same
-/// length keep the names.
+/// shape keep the names.
 int finalize(PyArrayObject* array, PyObject* source)
 {
   auto* vector = reinterpret_cast<PyObject*>(array);
   if (source == nullptr || source == Py_None || !is_named_vector(source))
     return 0;
   PyObject* names = valid_names(source);
-  if (names != nullptr && PyArray_NDIM(array) == 1 && PyArray_DIM(array, 0) == PyDict_Size(names))
+  const int axes = PyArray_NDIM(array);
+  if (names != nullptr && axes == axes_of(source)
+      && PyArray_CompareLists(PyArray_DIMS(array), PyArray_DIMS(reinterpret_cast<PyArrayObject*>(source)), axes))
     set_names(vector, names);
   return 0;
 }
