@@ -15,7 +15,7 @@ FUZZ_LOADS ?= 20000
 FUZZ_CALLS ?= 1000000
 FUZZ_SECONDS ?= 300
 
-.PHONY: demo test docs test-debian13 test-packaging test-third-party test-viewer test-solver features fuzz soak sanitize coverage \
+.PHONY: demo test ahead docs test-debian13 test-packaging test-third-party test-viewer test-solver features fuzz soak sanitize coverage \
   bench wheel engine lint setup clean
 
 demo: setup
@@ -28,10 +28,13 @@ demo: setup
 	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then echo "in a window:                    $(VENV)/bin/python examples/biped_stand.py"; fi
 
 # If the process ends in the middle of a test, C++ has the last word: it is shown after all else, without pytest's frames.
-test: setup lint
-	@mkdir -p build
+test: setup ahead lint
 	$(VENV)/bin/python -m pytest --capture=sys 2>build/test.err || { status=$$?; \
 	  grep -v -e '^Extension modules' -e '/_pytest/' -e '/pluggy/' build/test.err | tail -50 >&2; exit $$status; }
+
+ahead: setup
+	@mkdir -p build
+	@nice $(VENV)/bin/python tests/compile_ahead.py >build/ahead.log 2>&1 &
 
 docs: setup
 	$(VENV)/bin/pip install --quiet -e '.[docs]' --no-build-isolation

@@ -41,7 +41,7 @@ def check(model: Path, steps: int, scenes: list[tuple[str, str]]) -> list[Scene]
     """Compare the solvers in scenes of a model, given as (detector, variation)."""
     arguments = [word for scene in scenes for word in scene]
     done = subprocess.run(
-        [_build() / "check", str(steps), str(model), *arguments],
+        [build() / "check", str(steps), str(model), *arguments],
         capture_output=True,
         text=True,
         check=True,
@@ -52,7 +52,7 @@ def check(model: Path, steps: int, scenes: list[tuple[str, str]]) -> list[Scene]
 
 def compare_lcp(count: int) -> dict[str, int]:
     """How many random complementarity problems had which outcome, as ``lcp.cpp`` describes it."""
-    words = subprocess.run([_build() / "lcp", str(count)], capture_output=True, text=True, check=True).stdout.split()
+    words = subprocess.run([build() / "lcp", str(count)], capture_output=True, text=True, check=True).stdout.split()
     return dict(zip(words[::2], map(int, words[1::2])))
 
 
@@ -62,11 +62,12 @@ def _read(line: str) -> Scene:
     return Scene(detector, variation, result, int(steps), int(contacts), int(rows), float(difference), int(skeletons))
 
 
-def _build() -> Path:
+def build(jobs: int = 2) -> Path:
+    """Compile what has changed since the last time; returns the folder of the programs."""
     BUILD.mkdir(parents=True, exist_ok=True)
     with (BUILD / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # several test processes may start at once
-        for command in (["cmake", "-S", str(SOURCE), "-B", str(BUILD)], ["cmake", "--build", str(BUILD), "-j2"]):
+        for command in (["cmake", "-S", str(SOURCE), "-B", str(BUILD)], ["cmake", "--build", str(BUILD), f"-j{jobs}"]):
             done = subprocess.run(command, capture_output=True, text=True)
             assert done.returncode == 0, f"{' '.join(command)} failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}"
     return BUILD
