@@ -86,8 +86,8 @@ class Camera:
 def nearest(turn: Matrix, points: Matrix, fov: float, aspect: float) -> Matrix:
     """Where an eye has the world's origin, shape (3,), m, that sees some points from as near as it can, with a margin.
 
-    From height h and depth d, a point at height y and depth z is seen where |y - h| <= (d - z) tan(fov/2). The least d
-    is that of the points that are an equality above and below; the width has another.
+    From height h and depth d, a point at height y and depth z is seen where ``|y - h| <= (d - z) tan(fov/2)``. The
+    least d is that of the points that are an equality above and below; the width has another.
 
     Parameters
     ----------
