@@ -55,12 +55,13 @@ CHANGES: dict[str, Callable[[Skeleton, int, Array], object]] = {
 
 
 @pytest.mark.parametrize("model", ["skel/fullbody1.skel", "skel/chain.skel", "skel/cubes.skel"])
-def test_reading_in_any_order(model: str) -> None:
+@pytest.mark.parametrize("seed", range(4))
+def test_reading_in_any_order(model: str, seed: int) -> None:
     """Beside a skeleton to which the same was done, and of which nothing was read."""
-    draw = np.random.default_rng(0)
+    draw = np.random.default_rng(seed)
     read = World(0.001, model).skeletons[-1]
     done: list[tuple[str, int, Array]] = []
-    for _ in range(100):
+    for _ in range(25):
         done.append((str(draw.choice(list(CHANGES))), int(draw.integers(1000)), draw.uniform(-1.0, 1.0, read.ndofs)))
         CHANGES[done[-1][0]](read, *done[-1][1:])
         fresh = World(0.001, model).skeletons[-1]
