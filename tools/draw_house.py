@@ -18,15 +18,16 @@ WIDTH, HEIGHT, STEP = 150, 44, 92
 
 #: Where each room stands: column, floor.
 PLACES = {
-    "cli": (0.4, 0), "gui": (1.6, 0), "flat": (2.8, 0),
-    "mjcf": (0.1, 1), "building": (1.2, 1), "muscle": (2.3, 1), "utils": (3.4, 1),
-    "pydart2": (1.6, 2), "loading (Python)": (3.2, 2),
-    "swig": (1.6, 3), "python": (3.2, 3),
-    "handles": (1.6, 4), "state": (1.6, 5), "contact": (1.0, 6), "loading": (2.8, 7), "dynamics": (0.4, 7),
-    "collision": (1.6, 8), "engine": (1.6, 9), "base": (1.6, 10),
+    "cli": (0.6, 0), "gui": (1.8, 0), "flat": (3.0, 0),
+    "mjcf": (0.0, 1), "exporting": (1.0, 1), "building": (2.0, 1), "muscle": (3.0, 1), "utils": (4.0, 1),
+    "simulation": (0.6, 2), "multibody": (1.8, 2), "loading (Python)": (3.4, 2),
+    "pydart2": (1.8, 3),
+    "swig": (1.6, 4), "python": (3.2, 4),
+    "handles": (1.6, 5), "state": (1.6, 6), "contact": (1.0, 7), "loading": (2.8, 8), "dynamics": (0.4, 8),
+    "collision": (1.6, 9), "engine": (1.6, 10), "base": (1.6, 11),
 }  # fmt: skip
 
-PYTHON_ROOMS = ("building", "cli", "flat", "gui", "mjcf", "muscle", "utils")
+PYTHON_ROOMS = ("building", "cli", "exporting", "flat", "gui", "mjcf", "multibody", "muscle", "simulation", "utils")
 
 
 def python_arrows() -> Iterator[tuple[str, str]]:
@@ -89,7 +90,7 @@ def drawing() -> str:
             f'<text x="{x + WIDTH / 2:.0f}" y="{y + 35:.0f}">{files[room]} files</text>'
         )
     head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 825 {11 * STEP}" font-family="sans-serif" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 825 {12 * STEP}" font-family="sans-serif" '
         'font-size="12" text-anchor="middle" fill="#223">\n'
     )
     return head + "\n".join([*curves, *boxes]) + "\n</svg>\n"

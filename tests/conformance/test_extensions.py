@@ -128,6 +128,7 @@ def test_force_with_arrow(cubes: World, case: str) -> None:
     assert_allclose(arrows[0][0], cube.bodynodes[0].to_world([0, 0.01, 0]))
     assert_allclose(arrows[0][1], [0.5, 0, 0])
     cubes.step()
+    assert len(cube.bodynodes[0].force_arrows) == len(arrows)  # to be seen with what they did
     assert cube.dq[3] == pytest.approx(len(arrows) * 0.0005 / cube.m, rel=1e-3)
     cubes.step()
     assert cube.bodynodes[0].force_arrows == []

@@ -53,6 +53,17 @@ def test_one_step_is_the_closed_form(pendulum: Skeleton) -> None:
     assert_allclose(pendulum.motor_forces(), [motor - (h * kd + h * h * kp) * ddq], rtol=1e-10)
 
 
+def test_with_a_position_alone_it_comes_to_rest_there(pendulum: Skeleton) -> None:
+    """Also where it had a velocity to follow."""
+    pendulum.world.set_gravity([0.0, 0.0, 0.0])
+    pendulum.set_targets(dq={"hinge": 1.0}, kd=8.0)
+    pendulum.world.step(400)
+    assert_allclose(pendulum.dq, [1.0], rtol=1e-3)
+    pendulum.set_targets({"hinge": 0.5}, kp=60.0)
+    pendulum.world.step(2000)
+    assert_allclose([pendulum.q[0], pendulum.dq[0]], [0.5, 0.0], atol=1e-6)
+
+
 def test_it_settles_where_the_spring_balances_gravity(pendulum: Skeleton) -> None:
     """kp (q* - q) = m g l sin q; with compensation at the target itself."""
     pendulum.set_targets({"hinge": 0.5}, kp=60.0, kd=8.0)
