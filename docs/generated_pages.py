@@ -108,12 +108,14 @@ def picture(name: str) -> str:
 def example_page(name: str, output: str) -> str:
     """Text, clip, what it says of itself, and the script."""
     title, text = docstring(name)
+    heading, _, what = title.partition(": ")
+    text = f"{what[:1].upper()}{what[1:]}.\n\n{text}" if what else text
     text = "\n".join(line for line in text.splitlines() if not line.startswith("    "))
     checks = [line.removeprefix("ok: ") for line in output.splitlines() if line.startswith("ok: ")]
     claims = "In the run that made this page:\n\n" + "\n".join(f"- {line}" for line in checks) if checks else ""
     options = " ".join(["", *MODEL.get(name, [])])
     image = f"```{{image}} pictures/{picture(name)}\n:class: clip\n:alt: {title}\n```" if picture(name) else ""
-    return f"""# {title}
+    return f"""# {heading}
 
 {text.strip()}
 

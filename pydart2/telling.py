@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pydart2.world import World
 
 _MOST_ROWS = 20
+_SPACED = "border-collapse: separate; border-spacing: 0.8em 0"  # where a page's own style has no gaps
 _PICTURE = (480, 360)  # pixels
 
 
@@ -74,7 +75,9 @@ def table_of_skeleton(skel: Skeleton) -> str:
     """The dofs of a skeleton with their positions, limits and velocities as a table in HTML, that stays small."""
     handle = skel._handle
     numbers = zip(*map(np.ndarray.tolist, (skel.q_lower, skel.q, skel.q_upper, skel.dq)), strict=True)
-    rows = [(i, skel.dofs[i].name, *(f"{n:.4g}" for n in row)) for i, row in enumerate(numbers)]
+    rows = [
+        (i, skel.dofs[i].name, *(f"{n:.4g}" if np.isfinite(n) else "" for n in row)) for i, row in enumerate(numbers)
+    ]
     kinds = f"{count(skel.num_bodynodes(), 'body', 'bodies')}, {count(skel.num_dofs(), 'dof')}"
     title = f"<b>{html.escape(skel.name)}</b>: {kinds}, {handle.mass():g} kg"
     return title + _table(("", "dof", "lower", "q", "upper", "dq"), rows)
@@ -85,4 +88,5 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
     half = _MOST_ROWS // 2
     shown = [*rows[:half], ("…",) * len(head), *rows[-half:]] if len(rows) > _MOST_ROWS else rows
     lines = "".join("<tr>" + "".join(f"<td>{html.escape(str(c))}</td>" for c in row) + "</tr>" for row in shown)
-    return f"<table><tr>{''.join(f'<th>{name}</th>' for name in head)}</tr>{lines}</table>"
+    titles = "".join(f"<th>{name}</th>" for name in head)
+    return f'<table style="{_SPACED}"><tr>{titles}</tr>{lines}</table>'
