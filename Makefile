@@ -4,7 +4,7 @@
 # make wheel  a wheel that carries DART, and the source archive, in dist/; both as an index would check them
 # make engine the same DART with -O3 -DNDEBUG in build/engine/prefix; then PYDART2_DART_PREFIX=build/engine/prefix make ...
 # make test-debian13, make test-packaging, make test-third-party, make test-viewer, make test-solver, make fuzz, make soak,
-#   make sanitize, make coverage, make bench   see tests/README.md
+#   make mutations, make sanitize, make coverage, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
@@ -15,7 +15,7 @@ FUZZ_LOADS ?= 20000
 FUZZ_CALLS ?= 1000000
 FUZZ_SECONDS ?= 300
 
-.PHONY: demo test ahead docs test-debian13 test-packaging test-third-party test-viewer test-solver features fuzz soak sanitize coverage \
+.PHONY: demo test ahead docs test-debian13 test-packaging test-third-party test-viewer test-solver features fuzz mutations soak sanitize coverage \
   bench wheel engine lint setup clean
 
 demo: setup
@@ -95,6 +95,10 @@ fuzz: setup
 	@tail -6 build/fuzz.log
 	$(VENV)/bin/python tests/crash/fuzz_api.py $(FUZZ_CALLS)
 	$(VENV)/bin/python tests/crash/fuzz_threads.py $(FUZZ_SECONDS)
+
+# Small mistakes, one at a time, each with the tests beside it: which of them no test notices.
+mutations: setup
+	$(VENV)/bin/python tools/mutate.py $(FILES)
 
 bench: setup
 	$(VENV)/bin/pip install --quiet mujoco pin
