@@ -54,7 +54,7 @@ class Alias(property, Generic[Got]):
         def __set__(self, owner: object, value: Never, /) -> None: ...
 
 
-class Settable(property, Generic[Got, Given]):
+class Settable(Alias[Got], Generic[Got, Given]):
     """As Alias, of a pair of methods: it can be assigned to.
 
     Parameters
@@ -64,15 +64,10 @@ class Settable(property, Generic[Got, Given]):
     """
 
     def __init__(self, long: Callable[[Any], Got], set_long: Callable[[Any, Given], object]) -> None:
-        super().__init__(_reader(long.__name__), _setter(set_long.__name__), doc=long.__doc__)
+        property.__init__(self, _reader(long.__name__), _setter(set_long.__name__), doc=long.__doc__)
 
     if TYPE_CHECKING:
 
-        @overload
-        def __get__(self, owner: None, cls: type | None = None, /) -> Self: ...
-        @overload
-        def __get__(self, owner: object, cls: type | None = None, /) -> Got: ...
-        def __get__(self, owner: object, cls: type | None = None, /) -> Got | Self: ...
         def __set__(self, owner: object, value: Given, /) -> None: ...
 
 

@@ -132,6 +132,7 @@ def test_snapshots_are_values(tmp_path: Path) -> None:
     snapshot = world.snapshot()
     again = pickle.loads(pickle.dumps(snapshot))
     assert snapshot == again == copy.deepcopy(snapshot) and hash(snapshot) == hash(again)
+    assert snapshot != Snapshot(snapshot.values.copy(), snapshot.contacts.copy(), "of another model")
     world.step()
     assert snapshot != world.snapshot() and snapshot != "another thing"
 

@@ -169,7 +169,7 @@ def test_an_error_in_a_later_step_leaves_the_contacts_of_the_one_before(tmp_path
 
     world.skeletons[2].controller, other.skeletons[2].controller = compute, lambda: [1.0]
     world.step()
-    assert world.collision_result.num_contacts() > 0  # has been looked at
+    assert len(world.collision_result.rows) > 0  # has been looked at
     with pytest.raises(ZeroDivisionError):
         world.step(5)
     other.step(3)
