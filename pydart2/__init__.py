@@ -8,6 +8,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 from pydart2 import constraints, pydart2_api
@@ -117,6 +118,12 @@ __all__ = [
     "utils",
     "verbose",
 ]
+
+if "IPython" in sys.modules:
+    from pydart2.utils.completion import register
+
+    register()
+    del register
 
 
 def __getattr__(name: str) -> object:
