@@ -97,6 +97,17 @@ def test_python_modules_do_not_run_in_circles() -> None:
     assert circles(arrows) == []
 
 
+def test_the_window_runs_in_no_circle_for_type_checkers_either() -> None:
+    files = {name_of(path): path for path in (PACKAGE / "gui" / "pyqt5").glob("[a-z]*.py")}
+    arrows = {
+        name: {node.module for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.ImportFrom)}
+        & files.keys()
+        for name, path in files.items()
+    }
+    assert len(arrows) > 15 and any(arrows.values())
+    assert circles(arrows) == []  # type: ignore[arg-type]
+
+
 def test_the_core_reaches_the_screen_by_one_door() -> None:
     rooms_with_pictures = ("pydart2.gui", "pydart2.cli", "pydart2.__main__")
     arrows = {

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from PyQt5.QtCore import QSize, Qt
 from PyQt5.QtGui import QKeySequence
-from PyQt5.QtWidgets import QAction, QComboBox, QMenu, QSizePolicy, QSlider, QToolBar
+from PyQt5.QtWidgets import QAction, QComboBox, QMainWindow, QMenu, QSizePolicy, QSlider, QToolBar
 
 from pydart2.gui.overlays import Overlays
 from pydart2.gui.pyqt5.style import icon
 from pydart2.gui.user_input import KEYS
-
-if TYPE_CHECKING:
-    from pydart2.gui.pyqt5.window import PyQt5Window
 
 #: Action → text on the button, and a method: of the window if it ends with Event, else of its Commands.
 #: The key and the sentence come from user_input.KEYS.
@@ -65,8 +60,8 @@ _MENUS: dict[str, tuple[str | None, ...]] = {
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, float("inf"))
 
 
-def make_actions(window: PyQt5Window) -> dict[str, QAction]:
-    """All actions by name, with shortcuts; the ones to tick are connected by `toggled`."""
+def make_actions(window: QMainWindow, commands: object) -> dict[str, QAction]:
+    """All actions by name, with shortcuts, which call the window and its commands; those to tick by `toggled`."""
     rows = {key.action: key for key in KEYS}
     actions = {}
     for name, (text, method) in _TEXTS.items():
@@ -78,7 +73,7 @@ def make_actions(window: PyQt5Window) -> dict[str, QAction]:
         action.setCheckable(name in _CHECKABLE)
         action.setChecked(name in _SHOWN)
         if method:
-            slot = getattr(window if method.endswith("Event") else window.commands, method)
+            slot = getattr(window if method.endswith("Event") else commands, method)
             if name in _CHECKABLE:
                 action.toggled.connect(slot)
             else:
@@ -88,7 +83,7 @@ def make_actions(window: PyQt5Window) -> dict[str, QAction]:
     return actions
 
 
-def make_toolbars(window: PyQt5Window, actions: dict[str, QAction]) -> tuple[QToolBar, QSlider, QComboBox]:
+def make_toolbars(window: QMainWindow, actions: dict[str, QAction]) -> tuple[QToolBar, QSlider, QComboBox]:
     """The control bar on top with the frame slider and the choice of speed; on the left what is shown."""
     bar = QToolBar("Control", window)
     bar.setObjectName("control")
@@ -129,7 +124,7 @@ def _fill(bar: QToolBar, names: tuple[str | None, ...], actions: dict[str, QActi
             bar.addAction(actions[name])
 
 
-def make_menus(window: PyQt5Window, actions: dict[str, QAction]) -> dict[str, QMenu]:
+def make_menus(window: QMainWindow, actions: dict[str, QAction]) -> dict[str, QMenu]:
     """The menus by title."""
     menus = {}
     for title, names in _MENUS.items():

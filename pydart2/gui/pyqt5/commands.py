@@ -19,7 +19,7 @@ from pydart2.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from pydart2.dof import Dof
-    from pydart2.gui.pyqt5.window import PyQt5Window
+    from pydart2.gui.pyqt5.scripted import Scripted
 
 MODEL_FILES = "Models (*.urdf *.sdf *.world *.skel *.vsk *.xml *.mjcf);;All files (*)"
 
@@ -27,7 +27,7 @@ MODEL_FILES = "Models (*.urdf *.sdf *.world *.skel *.vsk *.xml *.mjcf);;All file
 class Commands:
     """The commands of a window."""
 
-    def __init__(self, window: PyQt5Window) -> None:
+    def __init__(self, window: Scripted) -> None:
         self.window = window
         self.runtime = window.runtime
 

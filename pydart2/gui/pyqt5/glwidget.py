@@ -7,7 +7,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any, cast
 
 from OpenGL import GL
 from PyQt5.QtCore import QRect, pyqtSignal
@@ -15,11 +15,8 @@ from PyQt5.QtGui import QImage, QOffscreenSurface, QOpenGLContext, QPainter, QPa
 from PyQt5.QtWidgets import QOpenGLWidget, QWidget
 
 from pydart2.gui import context as contexts
-from pydart2.gui.pyqt5.picture import Picture, make_opaque
+from pydart2.gui.pyqt5.picture import Picture, Viewer, make_opaque
 from pydart2.gui.targets import draws_in_software
-
-if TYPE_CHECKING:
-    from pydart2.gui.pyqt5.window import PyQt5Window
 
 QT_PICTURES = "PYDART2_QT_PICTURES"
 
@@ -29,8 +26,8 @@ class GLWidget(Picture, QOpenGLWidget):
 
     picked = pyqtSignal(object)
 
-    def __init__(self, parent: PyQt5Window) -> None:
-        QOpenGLWidget.__init__(self, parent)
+    def __init__(self, parent: Viewer) -> None:
+        QOpenGLWidget.__init__(self, cast("QWidget", parent))
         self.set_up(parent)
 
     def initializeGL(self) -> None:  # noqa: N802 (Qt's)
@@ -65,8 +62,8 @@ class ImageWidget(Picture, QWidget):
 
     picked = pyqtSignal(object)
 
-    def __init__(self, parent: PyQt5Window) -> None:
-        QWidget.__init__(self, parent)
+    def __init__(self, parent: Viewer) -> None:
+        QWidget.__init__(self, cast("QWidget", parent))
         self._context = contexts.create_context()
         contexts.free_with(self, self._context)
         self._lock = threading.RLock()
@@ -93,7 +90,7 @@ class ImageWidget(Picture, QWidget):
         self.paint_seconds = time.perf_counter() - start
 
 
-def make_picture(window: PyQt5Window) -> GLWidget | ImageWidget:
+def make_picture(window: Viewer) -> GLWidget | ImageWidget:
     """The picture of a window: by Qt's OpenGL on a graphics card, else by ours, beside which the simulation goes on.
 
     PYDART2_QT_PICTURES=1 in the environment takes Qt's in any case.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import AbstractContextManager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,9 +26,11 @@ from pydart2.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from PyQt5.QtCore import pyqtBoundSignal
-    from PyQt5.QtWidgets import QWidget
+    from PyQt5.QtWidgets import QAction, QWidget
 
-    from pydart2.gui.pyqt5.window import PyQt5Window
+    from pydart2.gui.capture import CaptureFolder
+    from pydart2.gui.runtime import Runtime
+    from pydart2.world import World
 
     _Base = QWidget
 else:
@@ -40,12 +42,32 @@ _CLICK = 4  # pixels that the mouse may move in a click
 _BUTTONS = {Qt.LeftButton: "left", Qt.RightButton: "right", Qt.MiddleButton: "middle"}
 
 
+class Viewer(Protocol):
+    """What a picture knows of its window."""
+
+    runtime: Runtime
+    captures: CaptureFolder
+    named_actions: dict[str, QAction]
+
+    @property
+    def sim(self) -> Any:
+        """The simulation."""
+
+    @property
+    def world(self) -> World | None:
+        """The simulation if it is a World."""
+
+    def safe_call_callback(self, evt: str, *args: Any) -> Any:
+        """Call the function of an event if there is one; arrays that it gets have the shape (2,), pixels."""
+
+
 class Picture(_Base):
     """The part that GLWidget and ImageWidget have in common.
 
     Attributes
     ----------
-    viewer : PyQt5Window
+    viewer : Viewer
+        The window.
     scene : OpenGLScene
     overlays : Overlays
     lock_camera : bool
@@ -60,7 +82,7 @@ class Picture(_Base):
         def current(self) -> AbstractContextManager[object]:
             """Within it the picture's OpenGL context is current."""
 
-    def set_up(self, window: PyQt5Window) -> None:
+    def set_up(self, window: Viewer) -> None:
         """Make the picture that of a window."""
         self.viewer = window
         self.scene = OpenGLScene(*SIZE, window)

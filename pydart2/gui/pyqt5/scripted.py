@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from PyQt5.QtWidgets import QAction, QActionGroup, QMainWindow, QMenu
+from PyQt5.QtWidgets import QAction, QActionGroup, QComboBox, QMainWindow, QMenu
 
 from pydart2.gui.callbacks import EVENTS, Callbacks
 from pydart2.gui.capture import CaptureFolder
 from pydart2.gui.opengl.scene import OpenGLScene
 from pydart2.gui.pyqt5.glwidget import GLWidget, ImageWidget
+from pydart2.gui.pyqt5.inspector import Inspector
+from pydart2.gui.pyqt5.panes import ErrorPane, HelpOverlay
 from pydart2.gui.runtime import Runtime
 from pydart2.gui.trackball import Trackball
 from pydart2.world import World
@@ -26,9 +28,20 @@ class Scripted(QMainWindow):
     captures: CaptureFolder
     glwidget: GLWidget | ImageWidget
     scene: OpenGLScene
+    inspector: Inspector
+    named_actions: dict[str, QAction]
+    speedBox: QComboBox  # noqa: N815 (the original's)
+    errorPane: ErrorPane  # noqa: N815
+    helpOverlay: HelpOverlay  # noqa: N815
     cameraMenu: QMenu  # noqa: N815 (the original's)
     cameraGroup: QActionGroup  # noqa: N815
     _capture_rate = 100
+
+    if TYPE_CHECKING:
+
+        def set_simulation(self, sim: Any) -> None: ...
+        def refresh(self) -> None: ...
+        def look_upright(self) -> None: ...
 
     # Simulation
 

@@ -109,7 +109,7 @@ class PyQt5Window(Scripted):
 
     def initActions(self) -> None:  # noqa: N802 (the original's)
         """Make the actions; each is also an attribute, as `playAction`."""
-        self.named_actions = made = actions.make_actions(self)
+        self.named_actions = made = actions.make_actions(self, self.commands)
         self.resetAction, self.stepAction = made["reset"], made["step"]
         self.playAction, self.animAction = made["play"], made["animate"]
         self.screenshotAction, self.captureAction = made["screenshot"], made["capture"]
