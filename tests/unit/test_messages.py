@@ -94,12 +94,12 @@ def test_a_message_while_the_glue_is_imported_waits() -> None:
 
 
 def test_repeats_are_limited(caplog: Any, capfd: Any) -> None:
-    """Of 250 of the same: the first ten and the hundredth, with its number; after init() from the start."""
+    """Of 120 of the same: the first ten and the hundredth, with its number; after init() from the start."""
     for _ in range(2):
         pydart2.init(verbose=False)
         pydart2.set_verbose(True)
         caplog.clear()
-        for _ in range(250):
+        for _ in range(120):
             World(0.001, FREE, safe=False).skeletons[0].set_root_joint_to_trans_and_euler()
         texts = [record.getMessage() for record in engine_records(caplog)]
         assert len(texts) == 11 and len(set(texts[:10])) == 1 and texts[10] == texts[0] + " (100 times so far)"

@@ -31,7 +31,7 @@ def test_links_of_the_readme_work_outside_the_repository(readme: object) -> None
     assert any(not target.startswith("http") for target in here)
     base = "https://example.org/us/pydart2"
     whole = readme.readme(base)  # type: ignore[attr-defined]
-    assert f'<img src="{base}/raw/HEAD/docs/images/atlas.png" width="360" alt="The Atlas' in whole
+    assert f'<img src="{base}/raw/HEAD/docs/images/atlas.png" width="480" alt="Atlas stands' in whole
     assert f"]({base}/blob/HEAD/docs/howto/many-worlds.md)" in whole
     assert len(targets(whole)) == len(here)
     for text in (whole, readme.readme(None), readme.readme(readme.source())):  # type: ignore[attr-defined]
