@@ -60,6 +60,18 @@ const auto& jacobian_rate(const GenericJoint<Space>& joint, bool constant)
   return joint.*Generic<Space>::jacobian_rate;
 }
 
+Joint::ActuatorType actuator(const Joint& joint)
+{
+  return (joint.*JointOf::properties).mActuatorType;
+}
+
+/// As Joint::isKinematic().
+bool is_kinematic(const Joint& joint)
+{
+  const auto type = actuator(joint);
+  return type == Joint::ACCELERATION || type == Joint::VELOCITY || type == Joint::LOCKED;
+}
+
 /// As the engine sets a state: what is equal stays, its zeros with their signs. Whether it has changed.
 template <class Vector>
 bool assign(Vector& place, const Vector& value)
@@ -177,7 +189,7 @@ template <class Visit>
 bool TreeDynamics::is_for_engine() const
 {
   for (const auto& link : links_)
-    if (link->joint->getActuatorType() == Joint::LOCKED) {
+    if (actuator(*link->joint) == Joint::LOCKED) {
       bool moves = false;
       visit(*link, [&](auto& joint) { moves = (state(joint).mVelocities.array() != 0.0).any(); });
       if (moves)
@@ -193,7 +205,7 @@ void TreeDynamics::accelerate()
   const double dt = skeleton_.getTimeStep();
   const Eigen::Vector3d gravity = skeleton_.getGravity();
   for (auto& link : links_) {
-    link->kinematic = link->joint->isKinematic();
+    link->kinematic = is_kinematic(*link->joint);
     update_motion(*link);
   }
   update_inertias();
@@ -205,14 +217,14 @@ void TreeDynamics::accelerate()
 }
 
 /// Poses and velocities, and the acceleration that comes of them alone.
-void TreeDynamics::update_motion(Link& link)
+[[gnu::flatten]] void TreeDynamics::update_motion(Link& link)
 {
   Joint& joint = *link.joint;
   BodyNode& body = *link.body;
   if (joint.*JointOf::transform_dirty) {
     if (link.axis != nullptr) {
       const auto& q = static_cast<RevoluteJoint&>(joint).getPositionsStatic();
-      joint.*JointOf::transform = joint.getTransformFromParentBodyNode() * dart::math::expAngular(*link.axis * q)
+      joint.*JointOf::transform = joint.getTransformFromParentBodyNode() * spatial::turn(*link.axis * q)
                                   * joint.getTransformFromChildBodyNode().inverse();
       joint.*JointOf::transform_dirty = false;
     } else {
@@ -259,7 +271,7 @@ void TreeDynamics::update_inertias()
 }
 
 /// Without and with implicit damping and springs; what is the same is formed once.
-void TreeDynamics::update_inertia(Link& link, double dt)
+[[gnu::flatten]] void TreeDynamics::update_inertia(Link& link, double dt)
 {
   Matrix6& plain = link.body->*Body::inertia;
   Matrix6& implicit = link.body->*Body::inertia_implicit;
@@ -295,11 +307,11 @@ void TreeDynamics::update_inertia(Link& link, double dt)
 }
 
 /// Adds what a body sees of its child's articulated inertia through the child's joint.
-void TreeDynamics::add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum)
+[[gnu::flatten]] void TreeDynamics::add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum)
 {
-  const Eigen::Isometry3d back = (child.joint->*JointOf::transform).inverse();
+  const Eigen::Isometry3d& T = child.joint->*JointOf::transform;
   if (child.kinematic || child.kind == Kind::none) {
-    sum += dart::math::transformInertia(back, inertia);
+    sum += spatial::inertia_to_parent(T, inertia);
     return;
   }
   visit(child, [&](auto& joint) {
@@ -308,12 +320,12 @@ void TreeDynamics::add_child_inertia(const Link& child, const Matrix6& inertia, 
     const typename Space::JacobianMatrix IJ = inertia * jacobian(joint, child.constant);
     Matrix6 left = inertia;
     left.noalias() -= IJ * inverse * IJ.transpose();
-    sum += dart::math::transformInertia(back, left);
+    sum += spatial::inertia_to_parent(T, left);
   });
 }
 
 /// What acts on a body beside its joint to the parent, and of it what that joint feels.
-void TreeDynamics::update_bias_force(Link& link, const Eigen::Vector3d& gravity, double dt)
+[[gnu::flatten]] void TreeDynamics::update_bias_force(Link& link, const Eigen::Vector3d& gravity, double dt)
 {
   BodyNode& body = *link.body;
   const Matrix6& I = *link.inertia;
@@ -336,7 +348,7 @@ void TreeDynamics::update_bias_force(Link& link, const Eigen::Vector3d& gravity,
   visit(link, [&](auto& joint) { update_total_force(joint, link, force, dt); });
 }
 
-void TreeDynamics::add_child_bias_force(const Link& child, Vector6& sum)
+[[gnu::flatten]] void TreeDynamics::add_child_bias_force(const Link& child, Vector6& sum)
 {
   const BodyNode& body = *child.body;
   const Vector6& force = body.*Body::bias_force;
@@ -365,7 +377,7 @@ template <class Space>
 void TreeDynamics::update_total_force(GenericJoint<Space>& joint, const Link& link, const Vector6& force, double dt)
 {
   auto& s = state(joint);
-  switch (joint.getActuatorType()) {
+  switch (actuator(joint)) {
   case Joint::FORCE:
     s.mForces = s.mCommands;
     break;
@@ -389,7 +401,7 @@ void TreeDynamics::update_total_force(GenericJoint<Space>& joint, const Link& li
       = s.mForces + spring + damping - jacobian(joint, link.constant).transpose() * force;
 }
 
-void TreeDynamics::update_acceleration(Link& link, double dt)
+[[gnu::flatten]] void TreeDynamics::update_acceleration(Link& link, double dt)
 {
   BodyNode& body = *link.body;
   Joint& joint = *link.joint;
@@ -446,7 +458,7 @@ void TreeDynamics::apply_impulses()
     update_velocity_change(*link, dt);
 }
 
-void TreeDynamics::update_bias_impulse(Link& link)
+[[gnu::flatten]] void TreeDynamics::update_bias_impulse(Link& link)
 {
   BodyNode& body = *link.body;
   Vector6& bias = body.*Body::bias_impulse;
@@ -474,7 +486,7 @@ void TreeDynamics::update_bias_impulse(Link& link)
     });
 }
 
-void TreeDynamics::update_velocity_change(Link& link, double dt)
+[[gnu::flatten]] void TreeDynamics::update_velocity_change(Link& link, double dt)
 {
   BodyNode& body = *link.body;
   const Matrix6& I = body.*Body::inertia;

@@ -49,6 +49,7 @@ struct BodyMembers : dart::dynamics::BodyNode
 
 struct JointMembers : dart::dynamics::Joint
 {
+  static constexpr auto properties = &JointMembers::mAspectProperties;
   static constexpr auto transform = &JointMembers::mT;
   static constexpr auto velocity = &JointMembers::mSpatialVelocity;
   static constexpr auto primary_acceleration = &JointMembers::mPrimaryAcceleration;
