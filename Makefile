@@ -82,10 +82,10 @@ test-third-party: setup
 	$(VENV)/bin/python tests/models/what_loads.py build/third-party >docs/what-loads.md
 	$(VENV)/bin/python -m pytest -m third_party
 
-# The others' packages are big, so they have a folder of their own.
+# The others' packages are big (1 GB), so they have a folder of their own.
 features: setup
 	$(PYTHON) -m venv build/features
-	build/features/bin/pip install --quiet dartpy mujoco pin drake pybullet
+	build/features/bin/pip install --quiet dartpy mujoco mujoco-mjx pin drake pybullet
 	$(VENV)/bin/python tools/probe_features.py build/features/bin/python >build/features.md
 	mv build/features.md docs/features.md
 

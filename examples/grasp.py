@@ -24,7 +24,7 @@ class Grasp(pydart.World):
         self.gap = 0.0  # how far the cube has ever been from its place in the hand, m
 
     def step(self, n: int = 1) -> None:
-        """One step; the cube's place in the hand is 0.1 m below."""
+        """The cube's place in the hand is 0.1 m below."""
         if self.frame == 100:
             self.hand.skeleton.set_targets([0.3])
         if self.frame == 900:
@@ -35,8 +35,7 @@ class Grasp(pydart.World):
 
 
 if __name__ == "__main__":
-    args = arguments()
-    world = Grasp()
+    args, world = arguments(), Grasp()
     if args.headless:
         camera = pydart.gui.Camera.look_at([0.95, 0.65, 1.0], [0.0, 0.42, 0.0], up=[0.0, 1.0, 0.0])
         slip = lambda: {f"the cube slips by {1e3 * world.gap:.3f} mm at most": world.gap < 5e-4}  # noqa: E731

@@ -31,14 +31,9 @@ class Reach(pydart.World):
 
 
 if __name__ == "__main__":
-    args = arguments()
-    world = Reach()
-
-    def check() -> dict[str, bool]:
-        """The hand gets where it should be."""
-        return {"the hand is at most a micrometre from its target": max(world.residuals) <= 1e-6}
-
+    args, world = arguments(), Reach()
     if args.headless:
-        rehearse(world, args, 180, check, camera=None)
+        text = "the hand is at most a micrometre from its target"
+        rehearse(world, args, 180, lambda: {text: max(world.residuals) <= 1e-6}, camera=None)
     else:
         pydart.gui.viewer.launch(world)

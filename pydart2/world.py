@@ -151,6 +151,8 @@ class World(
             model.add_to(self._handle)
         if engine_defaults:
             self._handle.use_engine_shapes()
+        else:
+            self.constraint_error_reduction = 0.2
         self._begin()
         for i in range(self._handle.num_skeletons()):
             self.add_skeleton_from_id(i)._z_up = model is not None and is_z_up(model)

@@ -78,6 +78,7 @@ def marked() -> str:
 def make_world() -> pydart2.World:
     """A floor, a creature that has fallen on it, a crane with motors, markers, soft and built bodies, constraints."""
     world = pydart2.World(0.002, skel_text(floor(), creature(), marked()).replace(">dart<", ">fcl_mesh<"), xmlstr=True)
+    world.constraint_error_reduction = 0.01  # the default of what wrote the snapshot
     crane = world.add_skeleton(ROBOT, massless=True, base="fixed")
     crane.set_targets({"swing": 0.5}, kp=20.0, kd=2.0)
     crane.dof("rail").set_damping_coefficient(3.0)

@@ -1,4 +1,4 @@
-"""Which bodies of a compiled model collide: MuJoCo's filter as ours, and its equality constraints."""
+"""Which bodies of a compiled model collide: MuJoCo's filter as ours."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ import numpy as np
 from pydart2._native import WorldHandle
 from pydart2.mjcf.compile import Compiled
 from pydart2.mjcf.trees import Built
-
-_CONNECT, _JOINT = 0, 2  # mjtEq
 
 
 def set_filter(model: Compiled, world: WorldHandle, built: Built, mixed: set[str]) -> None:
@@ -60,37 +58,3 @@ def _filtered(model: Compiled, a: int, b: int, excluded: set[tuple[int, int]]) -
         return True
     above = [int(weld[model.body_parentid[weld[body]]]) for body in (a, b)]
     return bool((above[1] == weld[a] and weld[a] != 0) or (above[0] == weld[b] and weld[b] != 0))
-
-
-def add_equalities(model: Compiled, world: WorldHandle, built: Built, unknown: set[str]) -> None:
-    """Add what constrains two bodies or joints and has a counterpart; notes the rest in `unknown`."""
-    for i in map(int, np.flatnonzero(model.eq_active0)):
-        kind = int(model.eq_type[i])
-        first, second = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
-        if kind == _CONNECT and {first, second} <= set(built.places) and int(model.eq_objtype[i]) == 1:
-            a, b = (world.skeleton(s).bodynode(b) for s, b in (built.places[body] for body in (first, second)))
-            world.add_ball_joint_constraint(a, b, a.to_world(np.array(model.eq_data[i][:3])))
-        elif kind == _JOINT and second >= 0 and not np.any(model.eq_data[i][2:5]):
-            _mimic(model, world, built, i, unknown)
-        else:
-            unknown.add("equality constraints but connect between bodies, and joint with a linear polynomial")
-
-
-def _mimic(model: Compiled, world: WorldHandle, built: Built, i: int, unknown: set[str]) -> None:
-    first, second = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
-    offset, factor = (float(number) for number in model.eq_data[i][:2])
-    start = [float(model.qpos0[model.jnt_qposadr[joint]]) for joint in (first, second)]
-    places = []
-    for joint in (first, second):
-        skeleton = built.places[int(model.jnt_bodyid[joint])][0]
-        coordinates = built.coordinates[skeleton]
-        dof = next(p.dof for p in coordinates.joints if p.qvel == int(model.jnt_dofadr[joint]))
-        places.append((skeleton, dof))
-    if places[0][0] != places[1][0]:
-        unknown.add("equality constraints of joints of two trees")
-        return
-    skel = world.skeleton(places[0][0])
-    joints = {skel.joint(j).dof(0): skel.joint(j) for j in range(skel.num_joints()) if skel.joint(j).num_dofs() == 1}
-    follower, leader = joints[places[0][1]], joints[places[1][1]]
-    follower.set_mimic(leader, factor, start[0] + offset - factor * start[1])
-    follower.set_actuator_type("MIMIC")

@@ -50,11 +50,12 @@ class Coordinates:
 
     def dq(self, qpos: ArrayLike, qvel: ArrayLike) -> _Array:
         """Our velocities, shape (ndofs,), rad/s and m/s, of MuJoCo's positions, (nq,), and velocities, (nv,)."""
-        dq: _Array = self.to_ours(qpos) @ np.asarray(qvel, dtype=float)
+        S = self.to_ours(qpos)
+        dq: _Array = S @ np.asarray(qvel, dtype=float)[: S.shape[1]]
         return dq
 
     def to_ours(self, qpos: ArrayLike) -> _Array:
-        """The matrix S, shape (ndofs, nv), 1, of dq = S qvel; S' takes our forces to MuJoCo's."""
+        """The matrix S, shape (ndofs, n), 1, of dq = S qvel[:n]; S' takes our forces to MuJoCo's. n is at most nv."""
         where = np.asarray(qpos, dtype=float)
         size = max((joint.qvel + _SIZES.get(joint.kind, 1) for joint in self.joints), default=0)
         S = np.zeros((self.num_dofs, size))

@@ -13,8 +13,10 @@ from pydart2._native import WorldHandle
 from pydart2.errors import LoadError
 from pydart2.loading.readable import Readable
 from pydart2.loading.xml import Document
+from pydart2.mjcf.actuators import add_actuators
 from pydart2.mjcf.compile import Compiled, compile_model, mujoco_module, try_to_compile
-from pydart2.mjcf.contacts import add_equalities, set_filter
+from pydart2.mjcf.contacts import set_filter
+from pydart2.mjcf.equalities import add_equalities
 from pydart2.mjcf.geoms import GEOMS
 from pydart2.mjcf.trees import Built, add_static, add_tree, trees_of
 
@@ -92,6 +94,7 @@ class MjcfModel(Readable):
         notes = self._without_counterpart()
         set_filter(model, world, built, notes)
         add_equalities(model, world, built, notes)
+        add_actuators(model, world, built, notes)
         self._warn(notes)
         return world
 
@@ -105,6 +108,7 @@ class MjcfModel(Readable):
         notes = self._without_counterpart()
         set_filter(self.compiled, world, built, notes)
         add_equalities(self.compiled, world, built, notes)
+        add_actuators(self.compiled, world, built, notes)
         self._warn(notes)
         return index
 
@@ -117,7 +121,6 @@ class MjcfModel(Readable):
         model = self.compiled
         present = {
             "tendons": model.ntendon,
-            "actuators (set forces instead)": model.nu,
             "soft bodies (flex)": model.nflex,
             "skins": model.nskin,
             "plugins": model.nplugin,

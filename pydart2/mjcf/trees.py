@@ -17,6 +17,7 @@ _Array = NDArray[np.float64]
 KINDS = ("free", "ball", "slide", "hinge")  # mjtJoint
 _TYPES = {"ball": "BallJoint", "slide": "PrismaticJoint", "hinge": "RevoluteJoint"}
 _NO_AXES = np.zeros((0, 3))
+_POINT = 1e-6  # m, how large a mass without a moment of inertia is here
 
 
 @dataclass
@@ -160,7 +161,8 @@ class _Tree:
         model, mass = self.model, float(self.model.body_mass[body])
         if mass > 0.0:
             turn = rotation(model.body_iquat[body])
-            handle.add_mass(mass, model.body_ipos[body], turn @ np.diag(model.body_inertia[body]) @ turn.T)
+            moments = np.maximum(model.body_inertia[body], _POINT**2 * mass)
+            handle.add_mass(mass, model.body_ipos[body], turn @ np.diag(moments) @ turn.T)
         if float(model.body_gravcomp[body]) == 1.0:
             handle.set_gravity_mode(False)
 

@@ -53,7 +53,7 @@ def cross(first: bytes, second: bytes, most: int, seed: int) -> bytes:
 
 def load(data: bytes) -> None:
     """Load a model as a world and as a skeleton; raises what is no documented exception."""
-    fuzz_models.load(data)
+    fuzz_models.load(fuzz_models.Damaged(data))
     world = pydart2.World(0.001)
     with contextlib.suppress(pydart2.LoadError, pydart2.SimulationError):
         world.add_skeleton(data, reader="engine")
@@ -64,7 +64,10 @@ def main() -> None:
     """Exit code 0 if there was no trouble; libFuzzer says on standard error what it does."""
     count, found = sys.argv[1], Path(sys.argv[2]) if len(sys.argv) > 2 else FOUND
     found.mkdir(parents=True, exist_ok=True)
-    models = (*fuzz_models.originals(), *fuzz_models.SEEDS.iterdir())
+    models = (
+        *fuzz_models.originals(),
+        *(path for path in fuzz_models.SEEDS.iterdir() if path.suffix not in fuzz_models.MESHES),
+    )
     flags = {
         "runs": count,
         "seed_inputs": ",".join(map(str, models)),

@@ -2,7 +2,8 @@
 
     python tests/crash/fuzz_models.py 5000 [FIRST]    five thousand files, from number FIRST
 
-File n is the same in each run. One that ends the process is put into ``tests/crash/seeds``, where the tests find it.
+URDF, SDF, SKEL, MJCF (by MuJoCo's compiler and by the engine), and meshes under a model that is whole. File n is the
+same in each run. One that ends the process is put into ``tests/crash/seeds``, where the tests find it.
 """
 
 from __future__ import annotations
@@ -16,9 +17,13 @@ import random
 import re
 import subprocess
 import sys
+import tempfile
 import time
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -26,6 +31,7 @@ if __name__ == "__main__":
 
 import pydart2
 from oracle.models import dart_data
+from pydart2.loading import Reader
 
 SEEDS = Path(__file__).parent / "seeds"
 NUMBERS = (
@@ -36,10 +42,59 @@ LARGEST = 15_000  # bytes; larger models are slow to load and say the same
 MOST_SECONDS = 10.0
 #: The processes import the same package.
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(pydart2.__file__).parents[1])}
+MESHES = (".obj", ".stl", ".dae", ".ply", ".off")
+#: What a damaged mesh is part of: seen and collided with, and mirrored.
+AROUND_A_MESH = """<robot name="r"><link name="l">
+<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<visual><geometry><mesh filename="{0}"/></geometry></visual>
+<collision><geometry><mesh filename="{0}" scale="-1 1 1"/></geometry></collision></link></robot>"""
+#: An OFF and a PLY of the kind that others write; the packages bring the other formats.
+OFF = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+PLY = (
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n" + OFF.split("\n", 2)[2]
+)
 
 
+@dataclass(frozen=True)
+class Damaged:
+    """What a damaged file holds, its suffix if it is a mesh, and which of MJCF's readers gets it."""
+
+    data: bytes
+    mesh: str = ""
+    reader: Reader = "engine"
+
+    @classmethod
+    def seed(cls, path: Path) -> Damaged:
+        """One of ``tests/crash/seeds``."""
+        mesh = path.suffix if path.suffix in MESHES else ""
+        return cls(path.read_bytes(), mesh, "mujoco" if path.stem.endswith("-mujoco") else "engine")
+
+
+@cache
+def mjcf_originals() -> list[Path]:
+    """Gymnasium's robots, for MuJoCo's compiler."""
+    found = find_spec("gymnasium")
+    assert found and found.origin, "gymnasium is not installed: pip install gymnasium"
+    return sorted((Path(found.origin).parent / "envs" / "mujoco" / "assets").glob("*.xml"))
+
+
+@cache
+def mesh_originals() -> list[tuple[str, bytes]]:
+    """Suffix and content of small meshes: DART's, airo-models' and two from here."""
+    found = find_spec("airo_models")
+    assert found and found.origin, "airo-models is not installed: pip install airo-models"
+    paths = [path for root in (dart_data(), Path(found.origin).parent) for path in sorted(root.rglob("*"))]
+    small = [path for path in paths if path.suffix.lower() in MESHES and path.stat().st_size < 2 * LARGEST]
+    return [(path.suffix.lower(), path.read_bytes()) for path in small] + [
+        (".off", OFF.encode()),
+        (".ply", PLY.encode()),
+    ]
+
+
+@cache
 def originals() -> list[Path]:
-    """Models of all formats to be damaged: DART's own small ones and ours."""
+    """Models for the engine's readers to be damaged: DART's own small ones and ours."""
     ours = [Path(pydart2.data_path(f"skel/{name}.skel")) for name in ("cubes", "chain", "shapes")]
     root = dart_data()
     theirs = (path for path in sorted(root.rglob("*")) if path.suffix in (".skel", ".urdf", ".sdf", ".xml", ".vsk"))
@@ -137,10 +192,15 @@ def _damage_bytes(data: bytes, rng: random.Random) -> bytes:
     return data[:at]
 
 
-def damaged(number: int, models: list[Path]) -> bytes:
-    """Damaged file number `number`."""
-    rng = random.Random(number)
-    data = rng.choice(models).read_bytes()
+def _damage_words(data: bytes, rng: random.Random) -> bytes:
+    """Numbers of a text."""
+    words = list(re.finditer(rb"[-+]?\d[-+.\deE]*", data))
+    for at in sorted(rng.sample(words, min(len(words), rng.choice((1, 1, 3)))), key=lambda m: -m.start()):
+        data = data[: at.start()] + rng.choice(NUMBERS).encode() + data[at.end() :]
+    return data
+
+
+def _damage_model(data: bytes, rng: random.Random) -> bytes:
     if rng.random() < 0.1:
         return _damage_bytes(data, rng)
     try:
@@ -149,22 +209,50 @@ def damaged(number: int, models: list[Path]) -> bytes:
         return _damage_bytes(data, rng)
 
 
+def damaged(number: int) -> Damaged:
+    """Damaged file number `number`: one of ten a mesh, three of twenty for MuJoCo's compiler."""
+    rng = random.Random(number)
+    kind = rng.random()
+    if kind < 0.1:
+        suffix, data = rng.choice(mesh_originals())
+        if suffix == ".dae" and rng.random() < 0.7:
+            return Damaged(_damage_model(data, rng), suffix)
+        text = not data.startswith(b"\0") and rng.random() < 0.5
+        return Damaged((_damage_words if text else _damage_bytes)(data, rng), suffix)
+    reader: Reader = "mujoco" if kind < 0.25 else "engine"
+    models = mjcf_originals() if kind < 0.25 else originals()
+    return Damaged(_damage_model(rng.choice(models).read_bytes(), rng), reader=reader)
+
+
 # Loading them
 
 
-def load(data: bytes) -> tuple[float, str]:
+def _load(file: Damaged) -> pydart2.World:
+    if not file.mesh:
+        return pydart2.World(0.001, file.data, missing_meshes="warn", reader=file.reader)
+    with tempfile.NamedTemporaryFile(suffix=file.mesh) as mesh:
+        mesh.write(file.data)
+        mesh.flush()
+        world = pydart2.World(0.001)
+        world.add_skeleton(AROUND_A_MESH.format(mesh.name).encode())
+        return world
+
+
+def load(file: Damaged) -> tuple[float, str]:
     """Load a model as a user would: seconds of the longest call, and what came of it.
 
     Any other exception than the documented ones goes on.
     """
     outcome, times = "loaded", [time.monotonic()]
     try:
-        world = pydart2.World(0.001, data, missing_meshes="warn", reader="engine")
+        world = _load(file)
         for _ in range(2):
             times.append(time.monotonic())
             world.step()
-    except pydart2.LoadError:
+    except pydart2.LoadError as error:
         outcome = "refused"
+        if len(error.reason.split()) < 3:
+            raise AssertionError(f"no sentence: {error}") from error
     except pydart2.SimulationError:
         outcome = "cannot be simulated"
     times.append(time.monotonic())
@@ -178,10 +266,9 @@ def load(data: bytes) -> tuple[float, str]:
 def work(first: int, count: int) -> None:
     """Load some, in this process; writes the number before each, and its longest call and outcome after."""
     logging.disable(logging.CRITICAL)
-    models = originals()
     for number in range(first, first + count):
         print(number, end=" ", flush=True)
-        seconds, outcome = load(damaged(number, models))
+        seconds, outcome = load(damaged(number))
         print(f"{seconds:.3f} {outcome}", flush=True)
 
 
@@ -204,7 +291,8 @@ def run(first: int, count: int) -> tuple[collections.Counter[str], list[str]]:
             break
         troubles.append(f"file {number - 1} ended the process ({done.returncode}):\n{done.stderr[-1500:]}")
         SEEDS.mkdir(exist_ok=True)
-        (SEEDS / f"model-{number - 1}.xml").write_bytes(damaged(number - 1, originals()))
+        file = damaged(number - 1)
+        (SEEDS / f"model-{number - 1}-{file.reader}{file.mesh or '.xml'}").write_bytes(file.data)
     return outcomes, troubles
 
 

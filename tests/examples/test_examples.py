@@ -37,6 +37,7 @@ CLAIMS = {
     "ik": 1,
     "inverse_dynamics": 1,
     "inspect_skeleton": 0,
+    "keep_away": 1,
     "lidar": 1,
     "many_worlds": 2,
     "momentum": 1,

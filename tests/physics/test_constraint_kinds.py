@@ -232,7 +232,6 @@ def test_a_weld_to_a_moving_hand(solver: str) -> None:
         )
         parent.add_box([0.4, 0.05, 0.05], mass=4.0, position=[0.2, 0.0, 0.0])
     load = world.add_box([0.1, 0.1, 0.1], 5.0, position=[1.25, 0.0, 2.0]).bodynodes[0]
-    world.constraint_error_reduction = 0.2
     assert parent is not None
     WeldJointConstraint(load, parent).add_to_world(world)
     before = load.relative_pose(parent)
@@ -264,7 +263,8 @@ def test_a_planar_body_rests_under_the_iterative_solver() -> None:
 
 def test_a_share_is_a_share() -> None:
     world = World(0.001)
-    assert world.constraint_error_reduction == 0.01
+    assert world.constraint_error_reduction == 0.2
+    assert World(0.001, engine_defaults=True).constraint_error_reduction == 0.01
     world.constraint_error_reduction = 0.3
     assert world.clone().constraint_error_reduction == 0.3
     with pytest.raises(ValueError, match="from 0 to 1"):

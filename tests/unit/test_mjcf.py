@@ -200,8 +200,71 @@ def test_a_joint_follows_another() -> None:
     assert hand.q["left"] == pytest.approx(0.1 + 2 * hand.q["right"], abs=2e-3)
 
 
+ARM = """<mujoco><option gravity="0 0 -9.81" timestep="0.001"/><worldbody>
+<body name="upper" pos="0 0 1"><joint name="shoulder" axis="0 1 0" damping="0.5"/>
+<geom type="capsule" fromto="0 0 0 .4 0 0" size=".03"/>
+<body name="fore" pos=".4 0 0"><joint name="elbow" axis="0 1 0" damping="0.5"/>
+<geom type="capsule" fromto="0 0 0 .4 0 0" size=".03"/></body></body></worldbody><actuator>{}</actuator></mujoco>"""
+
+
+def test_servos_hold_as_in_mujoco() -> None:
+    """With its sag: kp alone holds nothing where it should be."""
+    text = ARM.format(
+        '<position joint="shoulder" kp="40" kv="8" gear="2"/><position joint="elbow" kp="50" kv="4" forcerange="-3 3"/>'
+    )
+    world, model = pydart.World(0.001, text), mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    for _ in range(5000):
+        mujoco.mj_step(model, data)
+    world.step(5000)
+    (arm,) = world.skeletons
+    assert np.abs(data.qpos).max() > 0.05
+    assert arm.q == pytest.approx(data.qpos, abs=1e-5)
+    arm.set_targets({"shoulder": 0.5})
+    world.step(5000)
+    assert arm.q["shoulder"] == pytest.approx(0.5 + data.qpos[0], abs=0.1)
+
+
+def test_motors_have_their_limits() -> None:
+    motors = '<motor joint="shoulder" gear="-30" ctrlrange="-1 .5"/><motor joint="elbow" ctrlrange="-4 4"/>'
+    (arm,) = pydart.World(0.001, ARM.format(motors + '<motor joint="elbow" ctrlrange="-1 1"/>')).skeletons
+    assert list(arm.tau_lower) == [-15.0, -5.0] and list(arm.tau_upper) == [30.0, 5.0]
+    assert arm.targets is None
+
+
+def test_a_velocity_servo_turns() -> None:
+    text = ARM.format('<velocity joint="elbow" kv="20"/>').replace("-9.81", "0")
+    (arm,) = pydart.World(0.001, text).skeletons
+    arm.set_targets(dq={"elbow": 1.0})
+    arm.world.step(3000)
+    assert arm.dq["elbow"] == pytest.approx(20.0 / 20.5, abs=1e-3)  # its joint is damped
+
+
+HANGING = """<mujoco><worldbody>
+<body name="lamp" pos="0 0 1"><freejoint/><geom size=".1"/></body>
+<body name="box" pos="0 0 .7" euler="0 20 0"><freejoint/><geom type="box" size=".05 .05 .05"/></body></worldbody>
+<equality><connect body1="lamp" anchor="0 0 .2"/><weld body1="box" body2="lamp"/>{}</equality></mujoco>"""
+
+
+def test_bodies_are_held_to_the_world_and_to_each_other() -> None:
+    world = pydart.World(0.001, HANGING.format(""))
+    lamp, box = (skel.bodynodes[0] for skel in world.skeletons)
+    assert len(world.constraints) == 2
+    before = box.relative_pose(lamp)
+    world.step(500)
+    assert lamp.to_world([0.0, 0.0, 0.2]) == pytest.approx([0.0, 0.0, 1.2], abs=1e-3)
+    assert box.relative_pose(lamp) == pytest.approx(before, abs=1e-3)
+
+
+def test_a_weld_to_another_place_is_left_out(caplog: pytest.LogCaptureFixture) -> None:
+    weld = '<weld body1="lamp" body2="box" relpose="0 0 -.5 1 0 0 0"/>'
+    with caplog.at_level(logging.WARNING, "pydart2"):
+        world = pydart.World(0.001, HANGING.format(weld))
+    assert len(world.constraints) == 2 and "welds to another place" in caplog.text
+
+
 def test_what_is_left_out_is_named_once(caplog: pytest.LogCaptureFixture) -> None:
-    text = SLIDER.replace("</worldbody>", '</worldbody><actuator><motor joint="hip"/></actuator>')
+    text = SLIDER.replace("</worldbody>", '</worldbody><actuator><intvelocity joint="hip" actrange="0 1"/></actuator>')
     with caplog.at_level(logging.WARNING, "pydart2"):
         pydart.World(0.001, text)
     (said,) = [r.message for r in caplog.records if "left out" in r.message]
@@ -222,6 +285,25 @@ def test_named_states() -> None:
     world = pydart.World(0.001, text)
     world.x = world.keyframes["up"]
     assert world.skeletons[0].q == pytest.approx([0, 0, 0, 1, 2, 3, 0, 0, 0, 0.4, 0.1])
+
+
+def test_states_of_several_trees() -> None:
+    text = TWO.replace(
+        "</worldbody>", '</worldbody><keyframe><key qpos=".5 0 3 2 1 0 0 0" qvel="1 2 3 4 5 6 7"/></keyframe>'
+    )
+    world = pydart.World(0.001, text)
+    world.x = world.keyframes["key0"]
+    swing, ball = (world.skeleton(name) for name in ("swing", "ball"))
+    assert (swing.q[0], swing.dq[0]) == (0.5, 1.0)
+    assert ball.q[3:] == pytest.approx([0.0, 3.0, 2.0]) and ball.dq == pytest.approx([5, 6, 7, 2, 3, 4])
+
+
+def test_a_mass_without_extent(tmp_path: Path) -> None:
+    tip = '<body pos=".1 0 0"><inertial pos="0 0 0" mass=".01" diaginertia="0 0 0"/></body></body></body></body>'
+    model = model_of(SLIDER.replace("</body></body></body>", tip))
+    world = model.load_world()
+    assert model.built is not None and model.compiled.nbody == 5
+    assert max(worst_errors(model.compiled, model.built, world)) < 1e-9
 
 
 def test_one_tree_is_added_to_a_world() -> None:
