@@ -10,7 +10,15 @@ from harness import OURS, PYPI, Player, PythonPlayer, Ratio, competitors, met, r
 from loop import parts_player
 from scenes import atlas_with_meshes, scenes
 
-BARS = {"cubes": 1.0, "chain": 1.0, "fullbody1": 1.0, "Atlas": 3.0, "Atlas with meshes": 3.0}
+BARS = {
+    "cubes": 1.3,
+    "chain": 1.5,
+    "fullbody1": 1.5,
+    "softBodies": 1.0,
+    "Atlas": 3.0,
+    "PR2": 1.5,
+    "Atlas with meshes": 3.0,
+}
 
 
 def main() -> None:

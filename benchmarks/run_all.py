@@ -16,6 +16,7 @@ QUESTIONS = (
     "step",
     "dynamics",
     "integrators",
+    "robots",
     "access",
     "control",
     "engine",
