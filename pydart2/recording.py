@@ -76,6 +76,12 @@ class Recording:
         """The contacts at a kept frame; IndexError if it is gone."""
         return CollisionResult.from_rows(self.world, self.world._handle.frame_contacts(frame_index))
 
+    def sleepers(self, frame_index: int) -> list[Skeleton]:
+        """The skeletons that slept at a kept frame, without those that have gone since; IndexError if it is gone."""
+        indices = self.world._handle.frame_sleepers(frame_index).astype(int)
+        skeletons = self.world.skeletons
+        return [skeletons[i] for i in indices if i >= 0]
+
     # As arrays
 
     @property

@@ -32,6 +32,7 @@ _CENTER = (0.95, 0.75, 0.1)
 _AXIS = (0.95, 0.6, 0.1)
 _FLOOR = (0.86, 0.88, 0.9)
 _COLLISION = (0.35, 0.6, 0.85)
+_ASLEEP = np.array((0.62, 0.68, 0.82))
 _METRES_PER_NEWTON = 0.005
 
 
@@ -48,6 +49,8 @@ class Show:
     forces : bool
         External forces that were added "with arrow".
     centers_of_mass, frames, joint_axes : bool
+    sleepers : bool
+        Bodies that sleep (`World.set_sleeping`) in a paler, bluish colour.
     floor : Item or None
         Drawn besides, as what `first_look.floor_of` makes.
     """
@@ -60,6 +63,7 @@ class Show:
     centers_of_mass: bool = False
     frames: bool = False
     joint_axes: bool = False
+    sleepers: bool = False
     floor: Item | None = None
 
 
@@ -142,8 +146,14 @@ class Scene:
         show = show or Show()
         self.up = up_of(world)
         for skel in world.skeletons:
+            first = len(self.items)
             if show.bodies:
                 self.add_skeleton(skel, collision_shapes=show.collision_shapes)
+            if show.sleepers and skel.is_asleep():
+                self.items[first:] = [
+                    item._replace(rgba=np.append(0.35 * item.rgba[:3] + 0.65 * _ASLEEP, item.rgba[3]))
+                    for item in self.items[first:]
+                ]
             if show.markers:
                 self.add_markers(skel)
             self._add_signs(skel, show)

@@ -48,7 +48,7 @@ class Overlays(Show):
 
     TOGGLES: ClassVar = (
         *("contacts", "contact_forces", "centers_of_mass", "frames"),
-        *("joint_axes", "collision_shapes", "wireframe", "shadows"),
+        *("joint_axes", "collision_shapes", "sleepers", "wireframe", "shadows"),
     )
 
     def scene(self, world: World) -> Scene:

@@ -43,6 +43,7 @@ KEYS = (
     Key("frames", ("F8",), "Body frames"),
     Key("joint_axes", ("F9",), "Joint axes"),
     Key("collision_shapes", ("Ctrl+F5",), "Collision shapes"),
+    Key("sleepers", ("Ctrl+F8",), "Sleeping bodies in a paler colour"),
     Key("wireframe", ("Ctrl+F6",), "Wireframe"),
     Key("shadows", ("Ctrl+F7",), "Shadows"),
     Key("inspector", ("F10",), "Inspector"),

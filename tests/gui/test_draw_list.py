@@ -225,3 +225,20 @@ def test_markers_are_drawn_where_they_are() -> None:
     item = from_world(world).items[-1]
     assert item.transform[:3, 3] == pytest.approx(marker.p)
     assert item.ids == (0, 0)
+
+
+def test_sleepers_are_paler() -> None:
+    world = pydart2.World(0.002, up="z")
+    world.set_sleeping()
+    world.add_ground()
+    world.add_box((0.2, 0.2, 0.2), 1.0, (0.0, 0.0, 0.1), color=(0.8, 0.0, 0.0))
+    world.step(500)
+    assert len(world.sleepers()) == 1
+    colours = [
+        next(item.rgba for item in from_world(world, show) if item.ids[0] == world.skeletons[1].id)
+        for show in (Show(), Show(sleepers=True))
+    ]
+    assert colours[0] == pytest.approx([0.8, 0.0, 0.0, 1.0])
+    assert colours[1][2] > colours[0][2] + 0.3
+    assert len(world.recording.sleepers(0)) == 0
+    assert world.recording.sleepers(world.recording.num_frames() - 1) == [world.skeletons[1]]

@@ -164,3 +164,37 @@ def standing_atlas() -> pydart2.World:
         dof.set_rest_position(dof.position())
         dof.set_damping_coefficient(scene["damping"])
     return world
+
+
+def add_ragdoll(world: pydart2.World, name: str, height: float, turn: float) -> pydart2.Skeleton:
+    """A limp human of capsules, 33 dofs: 6, waist 3, chest 1, neck 3, each arm 3 + 1, each leg 3 + 1 + 2."""
+    doll = world.add_empty_skeleton(name)
+
+    def add(
+        part: str, parent: str | None, joint: str, at: tuple[float, float, float], radius: float, length: float
+    ) -> None:
+        half = 0.0 if parent is None else length / 2.0
+        body = doll.add_body(
+            part,
+            parent,
+            joint,
+            position=(at[0], at[1], at[2] - half),
+            joint_position=(0.0, 0.0, half),
+            axis=(0.0, 1.0, 0.0) if joint == "revolute" else None,
+            damping=None if parent is None else 0.5,
+        )
+        body.add_capsule(radius, length)
+
+    add("pelvis", None, "free", (0.0, 0.0, 0.0), 0.1, 0.1)
+    add("belly", "pelvis", "ball", (0.0, 0.0, 0.32), 0.09, 0.1)
+    add("chest", "belly", "revolute", (0.0, 0.0, 0.34), 0.11, 0.12)
+    add("head", "chest", "ball", (0.0, 0.0, 0.36), 0.09, 0.08)
+    for side, y in (("left", 1.0), ("right", -1.0)):
+        add(f"{side} arm", "chest", "ball", (0.0, 0.19 * y, 0.02), 0.045, 0.2)
+        add(f"{side} hand", f"{side} arm", "revolute", (0.0, 0.0, -0.22), 0.04, 0.18)
+        add(f"{side} thigh", "pelvis", "ball", (0.0, 0.1 * y, -0.14), 0.065, 0.25)
+        add(f"{side} shin", f"{side} thigh", "revolute", (0.0, 0.0, -0.3), 0.05, 0.25)
+        add(f"{side} foot", f"{side} shin", "universal", (0.0, 0.0, -0.22), 0.04, 0.08)
+    doll.set_self_collision_check(False)
+    doll.q = [0.0, turn, 0.0, 0.05 * turn, 0.0, height, *doll.q[6:]]
+    return doll

@@ -36,6 +36,7 @@ _TEXTS = {
     "frames": ("Body Frames", "show_overlays"),
     "joint_axes": ("Joint Axes", "show_overlays"),
     "collision_shapes": ("Collision Shapes", "show_overlays"),
+    "sleepers": ("Sleeping Bodies", "show_overlays"),
     "wireframe": ("Wireframe", "show_overlays"),
     "shadows": ("Shadows", "show_overlays"),
     "inspector": ("Inspector", "show_inspector"),

@@ -38,6 +38,7 @@ _DRAWINGS = {
         '<path d="M12 3.2l7.6 4.4v8.8L12 20.8l-7.6-4.4V7.6z" stroke-dasharray="3 2.2"/>'
         '<circle cx="12" cy="12" r="3.6"/>'
     ),
+    "sleepers": '<path d="M19.5 14.2A8 8 0 1 1 9.8 4.5a6.4 6.4 0 0 0 9.7 9.7z"/>',
     "wireframe": '<path d="M12 3.2l7.6 4.4v8.8L12 20.8l-7.6-4.4V7.6zM4.4 7.6L12 12l7.6-4.4M12 12v8.8"/>',
     "shadows": '<circle cx="12" cy="9" r="5.2"/><ellipse cx="12" cy="18.6" rx="7.4" ry="1.9" fill="{i}"/>',
     "follow": (

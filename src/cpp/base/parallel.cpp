@@ -101,11 +101,18 @@ private:
 
 } // namespace
 
+namespace {
+
+thread_local bool within_a_call = false;
+
+} // namespace
+
 void parallel_for(std::size_t count, std::size_t num_threads, const std::function<void(std::size_t)>& work)
 {
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> thrown(count);
   const auto take_turns = [&] {
+    const bool was_within = std::exchange(within_a_call, true);
     for (std::size_t i = next++; i < count; i = next++) {
       try {
         work(i);
@@ -113,8 +120,9 @@ void parallel_for(std::size_t count, std::size_t num_threads, const std::functio
         thrown[i] = std::current_exception();
       }
     }
+    within_a_call = was_within;
   };
-  const std::size_t wanted = std::min(num_threads, count);
+  const std::size_t wanted = within_a_call ? 1 : std::min(num_threads, count);
   const auto workers = wanted > 1 ? Pool::instance().take(wanted - 1) : std::vector<Worker*>();
   std::vector<std::vector<messages::Message>> said(workers.size());
   for (std::size_t i = 0; i < workers.size(); ++i)

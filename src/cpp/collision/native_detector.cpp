@@ -1,10 +1,12 @@
 #include "collision/native_detector.hpp"
 
 #include <dart/dynamics/ShapeNode.hpp>
+#include <algorithm>
 #include <tuple>
 #include <unordered_map>
 
 #include "base/errors.hpp"
+#include "engine/collision_filter.hpp"
 
 namespace pydart2 {
 
@@ -76,7 +78,7 @@ bool NativeDetector::collide(CollisionGroup* group, const CollisionOption& optio
   if (option.maxNumContacts == 0)
     return false;
   touches_.clear();
-  static_cast<NativeGroup*>(group)->scene().find(option.collisionFilter.get(), touches_);
+  static_cast<NativeGroup*>(group)->scene().find(option.collisionFilter.get(), false, touches_);
   return report(touches_, option, result);
 }
 
@@ -132,10 +134,36 @@ native::Scene& NativeGroup::scene()
 {
   if (stale_ || scene_.reordered()) {
     scene_.set_objects(sorted());
+    scene_.look_again(pose_of_);
     scene_.set_asleep(asleep_);
   }
   stale_ = false;
   return scene_;
+}
+
+void NativeGroup::look_again(native::PoseOf pose_of)
+{
+  pose_of_ = std::move(pose_of);
+  if (!stale_)
+    scene_.look_again(pose_of_);
+}
+
+void NativeGroup::find(const CollisionOption& option, CollisionResult& result)
+{
+  touches_.clear();
+  (stale_ ? scene() : scene_).find(option.collisionFilter.get(), true, touches_);
+  auto& contacts = engine::contacts_of(result);
+  contacts.resize(std::min(touches_.size(), option.maxNumContacts));
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto& touch = touches_[i];
+    auto& contact = contacts[i];
+    contact.point = touch.point.point;
+    contact.normal = touch.point.normal;
+    contact.force.setZero();
+    contact.penetrationDepth = touch.point.depth;
+    contact.collisionObject1 = touch.a;
+    contact.collisionObject2 = touch.b;
+  }
 }
 
 void NativeGroup::set_asleep(const std::unordered_set<const Skeleton*>& asleep, int version)

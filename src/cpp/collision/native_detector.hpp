@@ -64,6 +64,14 @@ public:
   /// Shapes of these are looked for by others only; of what changes them there is a version.
   void set_asleep(const std::unordered_set<const dart::dynamics::Skeleton*>& asleep, int version);
 
+  /// To be called when something else than states has changed. From then on bodies are where `pose_of` says.
+  void look_again(native::PoseOf pose_of);
+
+  /// The contacts of the shapes as they are, and of those that nearly touch, which have negative depths; with the touches
+  /// that they are made of.
+  void find(const dart::collision::CollisionOption& option, dart::collision::CollisionResult& result);
+  const std::vector<native::Touch>& touches() const { return touches_; }
+
 protected:
   void initializeEngineData() override {}
   void addCollisionObjectToEngine(dart::collision::CollisionObject*) override { stale_ = true; }
@@ -80,6 +88,8 @@ private:
   std::unordered_set<const dart::dynamics::Skeleton*> asleep_;
   int version_ = 0;
   native::Scene scene_;
+  native::PoseOf pose_of_;
+  std::vector<native::Touch> touches_;
 };
 
 /// The solver's group if its detector is a NativeDetector, with the shapes in the order of the skeletons; else null.

@@ -23,12 +23,28 @@ Feature segment(const Vector& from, const Vector& to, std::uint32_t code)
   return made;
 }
 
+constexpr int circle = 16; ///< Corners at most.
+
+const std::array<std::pair<double, double>, circle>& unit_circle()
+{
+  static const auto corners = [] {
+    std::array<std::pair<double, double>, circle> made;
+    for (std::size_t i = 0; i < made.size(); ++i)
+      made[i] = {std::cos(2.0 * M_PI * static_cast<double>(i) / circle), std::sin(2.0 * M_PI * static_cast<double>(i) / circle)};
+    return made;
+  }();
+  return corners;
+}
+
+/// With 4, 8 or 16 corners.
 Feature disc(double radius, double z, bool up, int corners, std::uint32_t code)
 {
   Feature made;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = (up ? 2.0 : -2.0) * M_PI * i / corners;
-    made.add({radius * std::cos(angle), radius * std::sin(angle), z});
+  const auto& rim = unit_circle();
+  const int step = circle / corners;
+  for (int i = 0; i < circle; i += step) {
+    const auto& [cosine, sine] = rim[static_cast<std::size_t>(i)];
+    made.add({radius * cosine, (up ? radius : -radius) * sine, z});
   }
   made.face = made.round = true;
   made.normal = Vector(0.0, 0.0, up ? 1.0 : -1.0);

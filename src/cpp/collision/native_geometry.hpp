@@ -52,9 +52,9 @@ struct Bounds
 {
   Vector low, high;
 
-  bool overlaps(const Bounds& other) const
+  bool overlaps(const Bounds& other, double margin = 0.0) const
   {
-    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+    return (low.array() <= other.high.array() + margin).all() && (other.low.array() <= high.array() + margin).all();
   }
   bool contains(const Bounds& other) const
   {

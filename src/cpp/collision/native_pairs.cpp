@@ -145,14 +145,14 @@ public:
 
   void collide()
   {
+    if (a_.form == Form::box && b_.form == Form::box)
+      return collide_boxes();
     Best best;
     const Vector towards = pose_ * b_.center - a_.center;
     if (!try_faces(faces_of(a_, Pose::Identity(), towards), true, best)
         || !try_faces(faces_of(b_, pose_, -towards), false, best))
       return;
-    if (a_.form == Form::box && b_.form == Form::box) {
-      collide_boxes(best);
-    } else if (best.depth > 0.1 * size_ || !add_face(best.normal, best.of_a, best.depth)) {
+    if (best.depth > 0.1 * size_ || !add_face(best.normal, best.of_a, best.depth)) {
       Separation apart;
       if (separation(a_, b_, pose_, a_.radius + b_.radius + margin_, apart))
         add(apart);
@@ -224,24 +224,44 @@ private:
       points_.push_back({lowest + normal * (depth / 2.0), sign * normal, depth, other.code << 12 | 0xfffU});
   }
 
-  /// Boxes have nine more directions in which they may be apart, across an edge of each.
-  void collide_boxes(const Best& face)
+  /// Boxes have fifteen directions in which they may be apart: of their faces, and across an edge of each (Gottschalk, Lin
+  /// and Manocha, "OBBTree", SIGGRAPH 1996, section 5).
+  void collide_boxes()
   {
-    double least = face.depth * (1.0 - 1e-3) - 1e-6 * size_; // faces carry better than edges
+    const Eigen::Matrix3d turn = pose_.linear(), size = turn.cwiseAbs();
+    const Vector &half_a = a_.half, &half_b = b_.half, &apart = pose_.translation();
+    const Vector apart_in_b = turn.transpose() * apart;
+    const Vector of_a = half_a + size * half_b - apart.cwiseAbs();
+    const Vector of_b = half_b + size.transpose() * half_a - apart_in_b.cwiseAbs();
+    if (std::min(of_a.minCoeff(), of_b.minCoeff()) < -margin_)
+      return;
+    Best face;
+    for (int i = 0; i < 3; ++i)
+      if (of_a[i] < face.depth - 1e-9 * size_)
+        face = {of_a[i], (apart[i] < 0 ? -1.0 : 1.0) * Vector::Unit(i), true};
+    for (int i = 0; i < 3; ++i)
+      if (of_b[i] < face.depth - 1e-9 * size_)
+        face = {of_b[i], (apart_in_b[i] > 0 ? -1.0 : 1.0) * turn.col(i), false};
+    double least = face.depth - 1e-3 * std::abs(face.depth) - 1e-6 * size_; // faces carry better than edges
     Vector normal = Vector::Zero();
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
-        Vector axis = Vector::Unit(i).cross(pose_.linear().col(j));
-        const double length = axis.norm();
+        const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+        const double along = apart[i2] * turn(i1, j) - apart[i1] * turn(i2, j); // of the axes' product, not yet of length 1
+        const double most = half_a[i1] * size(i2, j) + half_a[i2] * size(i1, j) + half_b[j1] * size(i, j2)
+                            + half_b[j2] * size(i, j1);
+        const double scaled = most - std::abs(along);
+        if (scaled >= 0.0 && scaled >= least)
+          continue;
+        const double length = std::hypot(turn(i1, j), turn(i2, j));
         if (length < 1e-4)
           continue;
-        axis /= axis.dot(pose_.translation()) < 0 ? -length : length;
-        const double depth = top_of_a(axis) + top_of_b(-axis);
+        const double depth = scaled / length;
         if (depth < -margin_)
           return;
         if (depth < least) {
           least = depth;
-          normal = axis;
+          normal = Vector::Unit(i).cross(turn.col(j)) / (along < 0 ? -length : length);
         }
       }
     const auto begin = points_.size();

@@ -8,6 +8,16 @@
 
 namespace pydart2::native {
 
+namespace {
+
+/// How far apart shapes may be that touch in the next step.
+double margin_of(const Geometry& geometry)
+{
+  return std::min(5e-4, 0.02 * geometry.size);
+}
+
+} // namespace
+
 Object::Object(dart::collision::CollisionDetector* detector, const dart::dynamics::ShapeFrame* frame)
   : CollisionObject(detector, frame)
 {
@@ -37,9 +47,20 @@ void Scene::set_objects(const std::vector<Object*>& objects)
     if (!bounded)
       unbounded_.push_back(static_cast<int>(items_.size()));
     watched_.push_back(static_cast<int>(items_.size()));
-    items_.push_back({object, body, skeleton, place, bounded, Pose::Identity(), {}, {}, false, false});
+    items_.push_back({object, body, skeleton, place, bounded, nullptr, Pose::Identity(), true, Pose::Identity(), {}, {}, false, false});
     items_.back().pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN()); // equal to no pose
     items_.back().wide = {Vector::Constant(1.0), Vector::Constant(-1.0)}; // contains nothing
+  }
+}
+
+void Scene::look_again(const PoseOf& pose_of)
+{
+  for (auto& item : items_) {
+    if (item.body == nullptr)
+      continue;
+    item.body_pose = pose_of ? pose_of(item.body) : nullptr;
+    item.relative = item.object->getShapeFrame()->asShapeNode()->getRelativeTransform();
+    item.collidable = item.body->isCollidable();
   }
 }
 
@@ -94,7 +115,8 @@ void Scene::place()
 void Scene::place(int index)
 {
   auto& item = this->item(index);
-  const Pose& pose = item.object->getShapeFrame()->getWorldTransform();
+  const Pose pose = item.body_pose == nullptr ? item.object->getShapeFrame()->getWorldTransform()
+                                              : *item.body_pose * item.relative;
   if (item.pose.matrix() == pose.matrix())
     return;
   item.pose = pose;
@@ -109,7 +131,7 @@ void Scene::place(int index)
 
 void Scene::widen(Item& item)
 {
-  const double more = 0.1 * (item.bounds.high - item.bounds.low).norm();
+  const double more = 0.1 * (item.bounds.high - item.bounds.low).norm() + margin_of(item.object->geometry());
   item.wide = {item.bounds.low.array() - more, item.bounds.high.array() + more};
   item.escaped = true;
 }
@@ -167,30 +189,32 @@ void Scene::find_pairs_of(int index)
     add(plane);
 }
 
-void Scene::find(const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches)
+void Scene::find(const dart::collision::CollisionFilter* filter, bool gaps, std::vector<Touch>& touches)
 {
   update();
   const engine::PairFilter fast(filter);
   for (const auto& [first, second] : watched_.size() == items_.size() ? pairs_ : watched_pairs_) {
     auto &a = item(first), &b = item(second);
-    if (a.bounded && b.bounded && !a.bounds.overlaps(b.bounds))
+    const double margin = gaps ? std::min(margin_of(a.object->geometry()), margin_of(b.object->geometry())) : 0.0;
+    if (a.bounded && b.bounded && !a.bounds.overlaps(b.bounds, margin))
       continue;
-    const bool sure = a.body != nullptr && b.body != nullptr && a.skeleton != b.skeleton
-                      && (a.skeleton->isMobile() || b.skeleton->isMobile()) && fast.surely_collide(*a.body, *b.body);
+    const auto mobile = [](const Item& item) { return item.body_pose != nullptr || item.skeleton->isMobile(); };
+    const bool sure = a.body != nullptr && b.body != nullptr && a.skeleton != b.skeleton && a.collidable && b.collidable
+                      && (mobile(a) || mobile(b)) && fast.surely_collide(*a.body, *b.body);
     if (sure || filter == nullptr || !filter->ignoresCollision(a.object, b.object))
-      touch(a, b, touches);
+      touch(a, b, margin, touches);
   }
 }
 
-void Scene::touch(Item& a, Item& b, std::vector<Touch>& touches)
+void Scene::touch(Item& a, Item& b, double margin, std::vector<Touch>& touches)
 {
   points_.clear();
-  collide(a.object->geometry(), b.object->geometry(), a.pose.inverse(Eigen::Isometry) * b.pose, 0.0, points_);
+  collide(a.object->geometry(), b.object->geometry(), a.pose.inverse(Eigen::Isometry) * b.pose, margin, points_);
   for (const auto& point : points_)
     touches.push_back(
         {{a.pose * point.at, a.pose.linear() * point.normal, point.depth, a.object->getShapeFrame(),
           b.object->getShapeFrame(), point.feature},
-         a.object, b.object});
+         a.object, b.object, static_cast<int>(&a - items_.data()), static_cast<int>(&b - items_.data()), point.at});
 }
 
 void Scene::find_between(Scene& other, const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches)
@@ -201,7 +225,7 @@ void Scene::find_between(Scene& other, const dart::collision::CollisionFilter* f
     for (auto& b : other.items_)
       if ((!a.bounded || !b.bounded || a.bounds.overlaps(b.bounds))
           && (filter == nullptr || !filter->ignoresCollision(a.object, b.object)))
-        touch(a, b, touches);
+        touch(a, b, 0.0, touches);
 }
 
 } // namespace pydart2::native

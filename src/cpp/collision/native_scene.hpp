@@ -3,6 +3,7 @@
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/CollisionObject.hpp>
 #include <dart/dynamics/BodyNode.hpp>
+#include <functional>
 #include <unordered_set>
 
 #include "collision/contact_point.hpp"
@@ -34,7 +35,12 @@ struct Touch
   ContactPoint point;
   Object* a;
   Object* b;
+  int item_a, item_b; ///< Their numbers in the scene.
+  Vector on_a; ///< The point in the frame of the first.
 };
+
+/// Where a body is that the engine's objects do not yet know to be there; null for others.
+using PoseOf = std::function<const Pose*(const dart::dynamics::BodyNode*)>;
 
 /// All shapes that may collide with each other, and which are near each other. Its memory of earlier steps saves time
 /// only: what it finds depends on the shapes and where they are, not on what was before.
@@ -47,11 +53,15 @@ public:
   /// Those of sleepers are where they were, and do not touch each other.
   void set_asleep(const std::unordered_set<const dart::dynamics::Skeleton*>& asleep);
 
+  /// Reads anew what a scene knows of bodies and shapes beside their geometry.
+  void look_again(const PoseOf& pose_of);
+
   /// Whether bodies have another place in their skeletons than when the objects were set.
   bool reordered() const;
 
-  /// The contact points of pairs in the order of their shapes.
-  void find(const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches);
+  /// The contact points of pairs in the order of their shapes; also of those that are apart, if `gaps`, by 0.5 mm or 2 % of
+  /// the smaller one's size at most.
+  void find(const dart::collision::CollisionFilter* filter, bool gaps, std::vector<Touch>& touches);
 
   /// Those between shapes of two scenes.
   void find_between(Scene& other, const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches);
@@ -64,6 +74,9 @@ private:
     const dart::dynamics::Skeleton* skeleton;
     std::size_t place; ///< Of the body in its skeleton.
     bool bounded;
+    const Pose* body_pose; ///< Null: the engine knows.
+    Pose relative; ///< To the body, in which it is.
+    bool collidable; ///< The body is.
     Pose pose;
     Bounds bounds;
     Bounds wide; ///< Within which it may move without being looked for anew.
@@ -80,7 +93,7 @@ private:
   void update_tree();
   void find_pairs_of(int index);
   void find_watched_pairs();
-  void touch(Item& a, Item& b, std::vector<Touch>& touches);
+  void touch(Item& a, Item& b, double margin, std::vector<Touch>& touches);
 
   std::vector<Item> items_;
   std::vector<int> unbounded_;

@@ -28,14 +28,14 @@ struct Sweeps::View
   using Square = Eigen::Map<Eigen::Matrix<double, R, R>>;
   static constexpr int second = both ? B : 1; // Eigen has no maps of nothing
 
-  View(BlockSystem& system, const Block& block)
+  View(BlockSystem& system, const Block& block, double* velocities)
     : block(block),
       Ja(system.J(block, 0), block.size, block.sizes[0]),
       Ya(system.Y(block, 0), block.size, block.sizes[0]),
       Jb(system.J(block, 1), block.size, both ? block.sizes[1] : 1),
       Yb(system.Y(block, 1), block.size, both ? block.sizes[1] : 1),
-      va(system.velocities.data() + block.starts[0], block.sizes[0]),
-      vb(system.velocities.data() + block.starts[1], both ? block.sizes[1] : 1),
+      va(velocities + block.starts[0], block.sizes[0]),
+      vb(velocities + block.starts[1], both ? block.sizes[1] : 1),
       W(system.W(block), block.size, block.size),
       inverse(system.W(block) + block.size * block.size, block.size, block.size),
       x(system.x.data() + block.row, block.size),
@@ -89,21 +89,22 @@ auto Sweeps::with_view(const Block& block, const Do& act)
 {
   if (block.size == 3 && block.sizes[0] == 6) {
     if (block.sizes[1] == 0) {
-      View<3, 6, 0> view(system_, block);
+      View<3, 6, 0> view(system_, block, velocities_);
       return act(view);
     }
     if (block.sizes[1] == 6) {
-      View<3, 6, 6> view(system_, block);
+      View<3, 6, 6> view(system_, block, velocities_);
       return act(view);
     }
   }
-  View<Eigen::Dynamic, Eigen::Dynamic, Eigen::Dynamic> view(system_, block);
+  View<Eigen::Dynamic, Eigen::Dynamic, Eigen::Dynamic> view(system_, block, velocities_);
   return act(view);
 }
 
-void Sweeps::prepare()
+void Sweeps::prepare(const Island& island)
 {
-  for (auto& block : system_.blocks)
+  for (int i = island.first; i < island.last; ++i) {
+    auto& block = system_.blocks[static_cast<std::size_t>(i)];
     with_view(block, [&block](auto& view) {
       view.W.noalias() = view.Ja * view.Ya.transpose();
       if constexpr (std::decay_t<decltype(view)>::both)
@@ -120,6 +121,7 @@ void Sweeps::prepare()
       if (block.movable)
         view.inverse = view.W.inverse();
     });
+  }
 }
 
 Swept Sweeps::solve(const Island& island)
@@ -312,7 +314,7 @@ bool Sweeps::find_corrections(const Island& island, double time_step, Eigen::Vec
   const auto first = system_.blocks.begin() + island.first, last = system_.blocks.begin() + island.last;
   if (std::none_of(first, last, [this](const Block& block) { return block.contact && block.depth > options_.allowance; }))
     return false;
-  system_.velocities.swap(out);
+  velocities_ = out.data();
   auto x = Eigen::VectorXd::Zero(island.rows).eval();
   double change = INFINITY;
   const auto solve_rows = [&](auto& view) {
@@ -339,7 +341,7 @@ bool Sweeps::find_corrections(const Island& island, double time_step, Eigen::Vec
     for (auto block = first; block != last; ++block)
       with_view(*block, solve_rows);
   }
-  system_.velocities.swap(out);
+  velocities_ = system_.velocities.data();
   return true;
 }
 

@@ -55,6 +55,7 @@ struct Swept
 {
   int sweeps = 0;
   double residual = 0.0;
+  bool corrects = false; ///< Something is too deep.
 };
 
 /// Block Gauss-Seidel with projection (Moreau and Jean, as in Acary and Brogliato, Numerical Methods for Nonsmooth
@@ -64,10 +65,13 @@ struct Swept
 class Sweeps
 {
 public:
-  Sweeps(BlockSystem& system, const IterativeOptions& options) : system_(system), options_(options) {}
+  Sweeps(BlockSystem& system, const IterativeOptions& options)
+    : system_(system), options_(options), velocities_(system.velocities.data())
+  {
+  }
 
-  /// W of all blocks and what force mixing adds to it.
-  void prepare();
+  /// W of an island's blocks and what force mixing adds to it.
+  void prepare(const BlockSystem::Island& island);
 
   /// From the impulses x on; x and the velocities are then those of the solution.
   Swept solve(const BlockSystem::Island& island);
@@ -104,6 +108,7 @@ private:
 
   BlockSystem& system_;
   const IterativeOptions& options_;
+  double* velocities_; ///< That the rows read and change.
   Eigen::VectorXd frozen_; ///< Normal impulses that bound friction; empty: those of the moment.
   int frozen_row_ = 0; ///< That of the first.
   Eigen::VectorXd along_x_, along_velocities_, last_x_, last_velocities_;

@@ -23,19 +23,20 @@ bool less(const ContactMemory::Key& x, const ContactMemory::Key& y)
 
 } // namespace
 
-void ContactMemory::begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons)
+void ContactMemory::begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons, bool same)
 {
   before_.swap(now_);
   now_.clear();
+  next_ = 0;
   for (auto& entry : before_)
     entry.used = false;
   const auto sooner = [](const Entry& x, const Entry& y) { return less(x.key, y.key); };
   if (!std::is_sorted(before_.begin(), before_.end(), sooner))
     std::stable_sort(before_.begin(), before_.end(), sooner);
   shapes_ = {};
-  const auto same = [](const auto* known, const auto& skeleton) { return known == skeleton.get(); };
-  if (std::equal(skeletons_.begin(), skeletons_.end(), skeletons.begin(), skeletons.end(), same))
+  if (same)
     return;
+  items_.clear();
   skeletons_.clear();
   order_.clear();
   for (const auto& skeleton : skeletons) {
@@ -66,13 +67,35 @@ double ContactMemory::shape_place(const dart::dynamics::ShapeFrame& shape) const
   return place(body.get(), 2 + part);
 }
 
+ContactMemory::Shape ContactMemory::look(const dart::collision::CollisionObject& object) const
+{
+  return {&object, shape_place(*object.getShapeFrame()), object.getShape()->getBoundingBox().computeFullExtents().norm()};
+}
+
 const ContactMemory::Shape& ContactMemory::look_at(std::size_t side, const dart::collision::CollisionObject& object)
 {
   auto& shape = shapes_[side];
   if (shape.object != &object)
-    shape = {
-        &object, shape_place(*object.getShapeFrame()), object.getShape()->getBoundingBox().computeFullExtents().norm()};
+    shape = look(object);
   return shape;
+}
+
+const ContactMemory::Shape& ContactMemory::look_at_item(int item, const dart::collision::CollisionObject& object)
+{
+  const auto i = static_cast<std::size_t>(item);
+  if (i >= items_.size())
+    items_.resize(i + 1);
+  auto& shape = items_[i];
+  if (shape.object != &object)
+    shape = look(object);
+  return shape;
+}
+
+ContactMemory::Key ContactMemory::key(const native::Touch& touch)
+{
+  const Shape a = look_at_item(touch.item_a, *touch.a);
+  const Shape& b = look_at_item(touch.item_b, *touch.b);
+  return {a.place, b.place, touch.on_a, part_of_size * std::min(a.size, b.size)};
 }
 
 ContactMemory::Key ContactMemory::key(const dart::collision::Contact& contact)
@@ -99,10 +122,25 @@ ContactMemory::Key ContactMemory::key(const Rows& rows) const
   return key;
 }
 
+/// The first entry that is not less: mostly one of the next after that of the last call.
+std::vector<ContactMemory::Entry>::iterator ContactMemory::find(const Key& wanted)
+{
+  constexpr std::size_t near = 8;
+  std::size_t i = next_;
+  if (i > 0 && !less(before_[i - 1].key, wanted))
+    i = before_.size();
+  for (const auto end = std::min(before_.size(), i + near); i < end; ++i)
+    if (!less(before_[i].key, wanted))
+      return before_.begin() + static_cast<std::ptrdiff_t>(next_ = i);
+  const auto sooner = [](const Entry& entry, const Key& key) { return less(entry.key, key); };
+  const auto found = std::lower_bound(before_.begin(), before_.end(), wanted, sooner);
+  next_ = static_cast<std::size_t>(found - before_.begin());
+  return found;
+}
+
 ContactMemory::Vector6 ContactMemory::recall(const Key& wanted)
 {
-  const auto sooner = [](const Entry& entry, const Key& key) { return less(entry.key, key); };
-  auto known = std::lower_bound(before_.begin(), before_.end(), wanted, sooner);
+  auto known = find(wanted);
   Entry* nearest = nullptr;
   double least = wanted.reach;
   for (; known != before_.end() && !less(wanted, known->key); ++known)

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "collision/native_scene.hpp"
 #include "engine/engine_access.hpp"
 
 namespace pydart2 {
@@ -27,11 +28,12 @@ public:
     double reach = 0.0; ///< m
   };
 
-  /// What was remembered in this step is now what is recalled.
-  void begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons);
+  /// What was remembered in this step is now what is recalled; `same` if no skeleton has changed since.
+  void begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons, bool same);
   void forget() { now_.clear(), before_.clear(); }
 
   Key key(const dart::collision::Contact& contact);
+  Key key(const native::Touch& touch);
   Key key(const engine::Rows& rows) const;
 
   /// The impulses one step ago, zero if they are not known: a contact's as a vector of the world, the others' row by row.
@@ -55,12 +57,17 @@ private:
     double place = -1.0, size = 0.0;
   };
 
+  std::vector<Entry>::iterator find(const Key& wanted);
   double place(const dart::dynamics::BodyNode* body, std::size_t part) const;
   double shape_place(const dart::dynamics::ShapeFrame& shape) const;
+  Shape look(const dart::collision::CollisionObject& object) const;
   const Shape& look_at(std::size_t side, const dart::collision::CollisionObject& object);
+  const Shape& look_at_item(int item, const dart::collision::CollisionObject& object);
 
   std::vector<Entry> now_, before_; ///< In the order of the places, once they are recalled.
+  std::size_t next_ = 0; ///< Near it the next one is that is recalled.
   std::array<Shape, 2> shapes_; ///< Of the last contact: the next one often has the same.
+  std::vector<Shape> items_; ///< Of the native scene.
   std::vector<const dart::dynamics::Skeleton*> skeletons_;
   std::unordered_map<const dart::dynamics::Skeleton*, std::size_t> order_; ///< Of these.
 };

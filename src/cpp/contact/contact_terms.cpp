@@ -34,7 +34,41 @@ bool ContactTerms::has_friction() const
   return friction[0] > least_friction || friction[1] > least_friction;
 }
 
-ContactReader::Shape ContactReader::shape(const dart::collision::CollisionObject& object)
+void ContactReader::begin(bool same, const FreeBodies* free)
+{
+  free_ = free;
+  shapes_ = {};
+  if (!same)
+    items_.clear();
+}
+
+const ContactReader::Shape& ContactReader::of_side(std::size_t side, const dart::collision::CollisionObject& object)
+{
+  auto& known = shapes_[side];
+  if (known.object != &object)
+    known = shape(object);
+  return known;
+}
+
+const ContactReader::Shape& ContactReader::of_item(int item, const dart::collision::CollisionObject& object)
+{
+  const auto i = static_cast<std::size_t>(item);
+  if (i >= items_.size())
+    items_.resize(i + 1);
+  auto& known = items_[i];
+  if (!known.known) {
+    known = shape(object);
+    known.known = known.first_direction.isZero(0.0); // which turns with the shape
+  }
+  return known;
+}
+
+bool ContactTerms::bounces() const
+{
+  return restitution > least_restitution;
+}
+
+ContactReader::Shape ContactReader::shape(const dart::collision::CollisionObject& object) const
 {
   Shape shape;
   shape.object = &object;
@@ -42,6 +76,8 @@ ContactReader::Shape ContactReader::shape(const dart::collision::CollisionObject
   if (node == nullptr)
     return shape;
   shape.body = const_cast<dart::dynamics::BodyNode*>(node->getBodyNodePtr().get());
+  if (free_ != nullptr)
+    shape.free = free_->find(shape.body);
   const auto* aspect = node->getDynamicsAspect();
   if (aspect == nullptr)
     return shape;
@@ -56,19 +92,19 @@ ContactReader::Shape ContactReader::shape(const dart::collision::CollisionObject
   return shape;
 }
 
-ContactTerms ContactReader::read(dart::collision::Contact& contact)
+ContactTerms ContactReader::read(dart::collision::Contact& contact, const native::Touch* touch)
 {
-  auto& [a, b] = shapes_;
-  if (a.object != contact.collisionObject1)
-    a = shape(*contact.collisionObject1);
-  if (b.object != contact.collisionObject2)
-    b = shape(*contact.collisionObject2);
+  if (touch != nullptr) // before there are references
+    of_item(std::max(touch->item_a, touch->item_b), touch->item_a > touch->item_b ? *touch->a : *touch->b);
+  const auto& a = touch == nullptr ? of_side(0, *contact.collisionObject1) : of_item(touch->item_a, *touch->a);
+  const auto& b = touch == nullptr ? of_side(1, *contact.collisionObject2) : of_item(touch->item_b, *touch->b);
   const bool a_has = a.first_direction.squaredNorm() >= nearly_zero, b_has = b.first_direction.squaredNorm() >= nearly_zero;
   const bool take_a = a_has && (!b_has || a.friction[0] <= b.friction[0]);
   const Vector3d first = take_a ? a.first_direction : b_has ? b.first_direction : Vector3d(Vector3d::UnitZ());
   ContactTerms terms;
   terms.contact = &contact;
   terms.bodies = {a.body, b.body};
+  terms.free = {a.free, b.free};
   terms.directions = basis(contact.normal, first);
   for (const std::size_t i : {0, 1}) {
     terms.friction[i] = std::min(a.friction[i], b.friction[i]);

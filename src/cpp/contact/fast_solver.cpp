@@ -5,6 +5,7 @@
 #include <dart/constraint/DantzigBoxedLcpSolver.hpp>
 #include <dart/external/odelcpsolver/common.h>
 #include <iomanip>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -68,51 +69,59 @@ void FastConstraintSolver::set_warm_start(bool enable)
 
 namespace {
 
-struct PutBack
+/// Two lists change places, for the time of a step.
+struct Exchange
 {
-  ~PutBack() { place.swap(was); }
+  Exchange(std::vector<dart::dynamics::SkeletonPtr>& a, std::vector<dart::dynamics::SkeletonPtr>& b) : a(a), b(b)
+  {
+    a.swap(b);
+  }
+  ~Exchange() { a.swap(b); }
+  Exchange(const Exchange&) = delete;
+  Exchange& operator=(const Exchange&) = delete;
 
-  std::vector<dart::dynamics::SkeletonPtr>& place;
-  std::vector<dart::dynamics::SkeletonPtr> was;
+  std::vector<dart::dynamics::SkeletonPtr>&a, &b;
 };
 
 } // namespace
 
-void FastConstraintSolver::solve_step(const Awake* awake)
+void FastConstraintSolver::solve_step(const Step* step)
 {
+  exact_residual_ = 0.0;
   if (solver_ == Solver::iterative)
-    iterative_.begin_step(mSkeletons);
-  const PutBack all{mSkeletons, mSkeletons};
-  if (awake != nullptr)
-    mSkeletons = awake->skeletons;
+    iterative_.begin_step(mSkeletons, step != nullptr && step->same, step == nullptr ? nullptr : step->free);
+  std::optional<Exchange> for_now;
+  if (step != nullptr)
+    for_now.emplace(mSkeletons, step->skeletons);
   if (solver_ == Solver::iterative)
-    solve_by_sweeps(awake);
-  else if (awake == nullptr)
+    solve_by_sweeps(step);
+  else if (step == nullptr)
     ConstraintSolver::solve();
   else
-    solve(*awake);
+    solve(*step);
 }
 
 /// The engine's solve(), with what wakes.
-void FastConstraintSolver::solve(const Awake& awake)
+void FastConstraintSolver::solve(const Step& step)
 {
   for (const auto& skeleton : mSkeletons) {
     skeleton->clearConstraintImpulses();
     skeleton->setImpulseApplied(false);
   }
   updateConstraints();
-  if (wake(&awake))
+  if (wake(&step))
     updateConstraints();
   buildConstrainedGroups();
   solveConstrainedGroups();
 }
 
-bool FastConstraintSolver::wake(const Awake* awake)
+bool FastConstraintSolver::wake(const Step* step)
 {
-  if (awake == nullptr || !awake->wake(mCollisionResult))
+  if (step == nullptr || !step->wake)
     return false;
-  mSkeletons = awake->skeletons;
-  return true;
+  const auto woken = step->wake(mCollisionResult);
+  mSkeletons.insert(mSkeletons.end(), woken.begin(), woken.end());
+  return !woken.empty();
 }
 
 std::vector<double> FastConstraintSolver::memory() const
@@ -171,6 +180,10 @@ void FastConstraintSolver::solve_exactly(ConstrainedGroup& group)
   if (solver_ == Solver::dart || shared_) {
     remove_empty_constraints(group);
     BoxedLcpConstraintSolver::solveConstrainedGroup(group);
+    if (group.getTotalDimension() > 0 && mSecondaryBoxedLcpSolver != nullptr) {
+      problem_.keep(mABackup, mBBackup, mLoBackup, mHiBackup, mFIndexBackup);
+      take_residual(mX);
+    }
     return;
   }
   const auto size = static_cast<Eigen::Index>(group.getTotalDimension());
@@ -180,7 +193,9 @@ void FastConstraintSolver::solve_exactly(ConstrainedGroup& group)
   matrix_.read(group, mSkeletons);
   mA.resize(size, dPAD(size));
   matrix_.fill(group, mTimeStep, mA);
+  problem_.keep(mA, mB, mLo, mHi, mFIndex);
   solve_lcp(group);
+  take_residual(mX);
   matrix_.apply(group, mTimeStep, mX);
 }
 

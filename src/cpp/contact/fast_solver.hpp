@@ -10,6 +10,7 @@
 
 #include "contact/constraint_matrix.hpp"
 #include "contact/dantzig_lcp.hpp"
+#include "contact/exact_residual.hpp"
 #include "contact/iterative_solver.hpp"
 #include "contact/warm_lcp.hpp"
 
@@ -44,16 +45,21 @@ public:
 
   IterativeSolver& iterative() { return iterative_; }
 
-  /// Those that a step is about, where not all are: others touch nothing that moves, or `wake` lets them take part when
-  /// asked with the contacts, which are then found anew.
-  struct Awake
+  /// What a step is about, where that is not all the skeletons of the world through the engine's objects.
+  struct Step
   {
-    std::vector<dart::dynamics::SkeletonPtr>& skeletons;
-    std::function<bool(const dart::collision::CollisionResult&)> wake;
+    std::vector<dart::dynamics::SkeletonPtr>& skeletons; ///< That are awake, without those in `free`.
+    FreeBodies* free;
+    bool same; ///< No skeleton has changed since the step before but for its state.
+    /// Asked with the contacts for the sleepers that wake, after which the contacts are found anew; null if none sleeps.
+    std::function<std::vector<dart::dynamics::SkeletonPtr>(const dart::collision::CollisionResult&)> wake;
   };
 
   /// solve() by the chosen solver; null for all skeletons.
-  void solve_step(const Awake* awake);
+  void solve_step(const Step* step);
+
+  /// Whether all contacts and constraints are solved by sweeps.
+  bool sweeps_all() const { return solver_ == Solver::iterative && all_known(); }
 
   /// What the chosen solver remembers of the step before, and back; false, and nothing changes, if these are other
   /// numbers.
@@ -70,6 +76,10 @@ public:
   double error_reduction() const { return error_reduction_; }
   static double engine_error_reduction() { return dart::constraint::DynamicJointConstraint::getErrorReductionParameter(); }
 
+  /// Of the last step, over all groups (contact/exact_residual.hpp, iterative_solver.hpp), m/s or rad/s. That the exact
+  /// solvers' friction bounds are those of the normal forces without friction shows in it.
+  double residual() const { return std::max(exact_residual_, iterative_.residual()); }
+
   /// Rows of the largest group that was solved exactly, since the last call.
   int take_largest_group() { return std::exchange(largest_group_, 0); }
 
@@ -80,15 +90,18 @@ protected:
   void solveConstrainedGroup(dart::constraint::ConstrainedGroup& group) override;
 
 private:
-  void solve(const Awake& awake);
-  bool wake(const Awake* awake);
-  void solve_by_sweeps(const Awake* awake);
-  void gather(const Awake* awake);
-  void gather_from_groups(const Awake* awake);
+  void solve(const Step& step);
+  bool wake(const Step* step);
+  void solve_by_sweeps(const Step* step);
+  const std::vector<native::Touch>* find_contacts(const Step* step);
+  void drop_gaps();
+  void gather(const Step* step);
+  void gather_from_groups(const Step* step);
   void add_joint_constraints(const dart::dynamics::Skeleton& skeleton);
   bool all_known() const;
   void scale_error(dart::constraint::ConstraintBase& constraint) const;
   void solve_exactly(dart::constraint::ConstrainedGroup& group);
+  void take_residual(const Eigen::VectorXd& x) { exact_residual_ = std::max(exact_residual_, problem_.of(x)); }
   bool groups_share_skeletons();
   void check_memory(const dart::constraint::ConstrainedGroup& group) const;
   void read_terms(dart::constraint::ConstrainedGroup& group);
@@ -106,6 +119,8 @@ private:
   DantzigLcp dantzig_lcp_;
   IterativeSolver iterative_;
   WarmLcp warm_lcp_;
+  ExactResidual problem_; ///< Of the group that is being solved.
+  double exact_residual_ = 0.0;
   Eigen::VectorXd warm_x_;
 };
 

@@ -4,8 +4,10 @@
 #include <dart/constraint/JointCoulombFrictionConstraint.hpp>
 #include <dart/constraint/MimicMotorConstraint.hpp>
 
+#include "collision/native_detector.hpp"
 #include "contact/contact_reduction.hpp"
 #include "contact/fast_solver.hpp"
+#include "engine/collision_filter.hpp"
 
 /// What the iterative solver gets: contacts as the detector has them, and of the engine's constraints those that are not
 /// contacts.
@@ -38,19 +40,21 @@ bool has_soft_body(const ConstraintBasePtr& constraint)
 
 } // namespace
 
-void FastConstraintSolver::solve_by_sweeps(const Awake* awake)
+void FastConstraintSolver::solve_by_sweeps(const Step* step)
 {
   for (const auto& skeleton : mSkeletons) {
     skeleton->clearConstraintImpulses();
     skeleton->setImpulseApplied(false);
   }
   if (all_known())
-    gather(awake);
+    gather(step);
   else
-    gather_from_groups(awake);
+    gather_from_groups(step);
   // The native detector has no more than four points of a pair of faces, and their depths are right.
   const bool native = mCollisionDetector->getType() == "native";
   iterative_.solve(mTimeStep, warm_start_, contact_reduction_ && !native, !native);
+  if (native && step != nullptr)
+    drop_gaps();
 }
 
 bool FastConstraintSolver::all_known() const
@@ -61,8 +65,31 @@ bool FastConstraintSolver::all_known() const
             });
 }
 
+/// Shapes that nearly touched and did not have not touched.
+void FastConstraintSolver::drop_gaps()
+{
+  auto& contacts = engine::contacts_of(mCollisionResult);
+  const auto gap = [](const Contact& contact) { return contact.penetrationDepth < 0.0 && contact.force.isZero(0.0); };
+  contacts.erase(std::remove_if(contacts.begin(), contacts.end(), gap), contacts.end());
+}
+
+/// With the native detector, the touches that the contacts are made of; else null.
+const std::vector<native::Touch>* FastConstraintSolver::find_contacts(const Step* step)
+{
+  auto* group = dynamic_cast<NativeGroup*>(mCollisionGroup.get());
+  if (group == nullptr || step == nullptr) {
+    mCollisionResult.clear();
+    mCollisionGroup->collide(mCollisionOption, &mCollisionResult);
+    return nullptr;
+  }
+  if (!step->same)
+    group->update();
+  group->find(mCollisionOption, mCollisionResult);
+  return &group->touches();
+}
+
 /// The engine's updateConstraints() without its contact constraints.
-void FastConstraintSolver::gather(const Awake* awake)
+void FastConstraintSolver::gather(const Step* step)
 {
   mActiveConstraints.clear();
   mContactConstraints.clear();
@@ -77,19 +104,15 @@ void FastConstraintSolver::gather(const Awake* awake)
     if (constraint->isActive())
       iterative_.add(constraint);
   };
-  const auto collide = [this] {
-    mCollisionResult.clear();
-    mCollisionGroup->collide(mCollisionOption, &mCollisionResult);
-  };
-  collide();
-  if (wake(awake))
-    collide();
+  const auto* touches = find_contacts(step);
+  if (wake(step))
+    touches = find_contacts(step);
   for (const auto& constraint : mManualConstraints)
     take(constraint);
   for (std::size_t i = 0; i < mCollisionResult.getNumContacts(); ++i)
     if (auto& contact = mCollisionResult.getContact(i);
-        !Contact::isZeroNormal(contact.normal) && contact.penetrationDepth >= 0.0)
-      iterative_.add(contact);
+        !Contact::isZeroNormal(contact.normal) && (touches != nullptr || contact.penetrationDepth >= 0.0))
+      iterative_.add(contact, touches == nullptr ? nullptr : &(*touches)[i]);
   for (const auto& skeleton : mSkeletons)
     add_joint_constraints(*skeleton);
   std::for_each(mJointConstraints.begin(), mJointConstraints.end(), take);
@@ -119,10 +142,10 @@ void FastConstraintSolver::add_joint_constraints(const Skeleton& skeleton)
 
 /// With the engine's constraints and groups, of which those with soft bodies or constraints of unknown kinds are solved
 /// exactly, here and now.
-void FastConstraintSolver::gather_from_groups(const Awake* awake)
+void FastConstraintSolver::gather_from_groups(const Step* step)
 {
   updateConstraints();
-  if (wake(awake))
+  if (wake(step))
     updateConstraints();
   buildConstrainedGroups();
   shared_ = mConstrainedGroups.size() > 1 && groups_share_skeletons();
@@ -141,7 +164,7 @@ void FastConstraintSolver::gather_from_groups(const Awake* awake)
     }
     for (const auto& constraint : constraints)
       if (const auto* contact = engine::contact(*constraint))
-        iterative_.add(const_cast<Contact&>(*contact)); // the engine's result
+        iterative_.add(const_cast<Contact&>(*contact), nullptr); // the engine's result
       else {
         scale_error(*constraint);
         iterative_.add(constraint);

@@ -1,5 +1,7 @@
 #include "contact/iterative_options.hpp"
 
+#include <algorithm>
+
 #include "base/checks.hpp"
 #include "base/errors.hpp"
 
@@ -15,7 +17,8 @@ Eigen::VectorXd numbers_of(const IterativeOptions& options)
 
 IterativeOptions options_of(const Eigen::VectorXd& numbers)
 {
-  check::size(numbers.size(), 7, "the options of the iterative solver");
+  if (numbers.size() != 8)
+    check::size(numbers.size(), 7, "the options of the iterative solver");
   check::finite(VectorIn{numbers.data(), numbers.size()}, "the options of the iterative solver");
   const auto require = [](bool good, const char* what) {
     if (!good)
@@ -34,6 +37,10 @@ IterativeOptions options_of(const Eigen::VectorXd& numbers)
   options.error_reduction = numbers[4];
   options.allowance = numbers[5];
   options.correction_speed = numbers[6];
+  if (numbers.size() == 8) {
+    require(numbers[7] > 0.0 && numbers[7] <= 256.0, "'threads' must be from 1 to 256");
+    options.threads = std::max(1, static_cast<int>(numbers[7]));
+  }
   return options;
 }
 

@@ -18,14 +18,15 @@ struct IterativeOptions
   Friction friction = Friction::pyramid;
   bool split = true;           ///< Depth is taken away by moving bodies, not by velocities (else as the engine does).
   double error_reduction = 0.2; ///< The part of the depth that goes in a step.
-  double allowance = 1e-4;      ///< m: the depth that stays.
+  double allowance = 5e-6;      ///< m: the depth that stays.
   double correction_speed = 1.0; ///< m/s: at most this fast.
+  int threads = 1;               ///< That solve the groups; results do not depend on it.
 };
 
-/// Iterations, tolerance, friction, split, error reduction, allowance, correction speed.
+/// Iterations, tolerance, friction, split, error reduction, allowance, correction speed; all but the threads.
 Eigen::VectorXd numbers_of(const IterativeOptions& options);
 
-/// ValueError for numbers that cannot be.
+/// ValueError for numbers that cannot be; an eighth is that of the threads.
 IterativeOptions options_of(const Eigen::VectorXd& numbers);
 
 } // namespace pydart2

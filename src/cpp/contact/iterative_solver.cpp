@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/parallel.hpp"
 #include "contact/contact_reduction.hpp"
 
 namespace pydart2 {
@@ -17,6 +18,8 @@ using dart::dynamics::BodyNode;
 using engine::Rows;
 
 constexpr int none = Movers::none;
+/// A detector that does not see what nearly touches loses contacts whose depth is taken away.
+constexpr double least_allowance_without_gaps = 1e-4;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// An impulse at a point of the world, as a wrench in a body's frame.
@@ -38,13 +41,14 @@ std::size_t part_of(const std::array<Movers::Place, 2>& places, std::size_t side
 
 } // namespace
 
-void IterativeSolver::begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons)
+void IterativeSolver::begin_step(
+    const std::vector<dart::dynamics::SkeletonPtr>& skeletons, bool same, FreeBodies* free)
 {
-  memory.begin_step(skeletons);
-  reader_.begin();
+  memory.begin_step(skeletons, same);
+  reader_.begin(same, free);
   contacts_.clear();
   constraints_.clear();
-  movers_.clear();
+  movers_.begin(free);
   corrections_.clear();
   iterations_used_ = 0;
   residual_ = 0.0;
@@ -73,7 +77,7 @@ void IterativeSolver::solve(double time_step, bool warm, bool reduce, bool doubt
   system_.x.setZero(system_.b.size());
   if (warm)
     recall();
-  sweep(time_step);
+  sweep(time_step, doubt ? std::max(options.allowance, least_allowance_without_gaps) : options.allowance);
   if (warm)
     remember();
   apply(time_step);
@@ -85,7 +89,7 @@ void IterativeSolver::find_sources()
   rows_.resize(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     engine::read_rows(*constraints_[i], rows_[i]);
-    sources_.push_back({static_cast<int>(i), none, {}, 0});
+    sources_.push_back({static_cast<int>(i), none, {}, 0, 0});
     if (rows_[i].kind == Rows::Kind::joint) // first: such a body is no free one
       sources_.back().places[0] = movers_.add_joint(*rows_[i].joint.joint->getChildBodyNode());
   }
@@ -98,11 +102,13 @@ void IterativeSolver::find_sources()
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     for (const std::size_t side : {0, 1})
       if (bodies[side] != contacts_[i].bodies[side])
-        places[side] = movers_.add(bodies[side] = contacts_[i].bodies[side]);
-    sources_.push_back({none, static_cast<int>(i), places, 0});
+        places[side] = movers_.add(bodies[side] = contacts_[i].bodies[side], contacts_[i].free[side]);
+    sources_.push_back({none, static_cast<int>(i), places, 0, 0});
   }
   const auto moves_nothing = [](const Source& source) { return source.places[0].mover == none && source.places[1].mover == none; };
   sources_.erase(std::remove_if(sources_.begin(), sources_.end(), moves_nothing), sources_.end());
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+    sources_[i].order = static_cast<int>(i);
 }
 
 /// Sorts the sources by what they move together.
@@ -132,7 +138,12 @@ void IterativeSolver::find_islands()
   island_of_.resize(root.size());
   for (std::size_t mover = 0; mover < root.size(); ++mover)
     island_of_[mover] = numbers[find(static_cast<int>(mover))];
-  std::stable_sort(sources_.begin(), sources_.end(), [](const Source& a, const Source& b) { return a.island < b.island; });
+  const auto sooner = [](const Source& a, const Source& b) { return a.island < b.island; };
+  if (!std::is_sorted(sources_.begin(), sources_.end(), sooner))
+    std::stable_sort(sources_.begin(), sources_.end(), sooner);
+  blocks_.resize(sources_.size());
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+    blocks_[static_cast<std::size_t>(sources_[i].order)] = i;
 }
 
 void IterativeSolver::place_velocities()
@@ -234,7 +245,10 @@ void IterativeSolver::fill_contact(const Block& block, const Source& source, dou
         b[row] -= sign * wrench_at(*body, point, terms.directions[static_cast<std::size_t>(row)]).dot(body->getSpatialVelocity());
     }
   }
-  b[0] = parting_speed(terms, b[0], options.split ? 0.0 : engine_correction(terms.contact->penetrationDepth, time_step));
+  if (terms.depth < 0.0) // may close its gap
+    b[0] += terms.depth / time_step;
+  else
+    b[0] = parting_speed(terms, b[0], options.split ? 0.0 : engine_correction(terms.contact->penetrationDepth, time_step));
   for (int row = 0; row < block.size; ++row) {
     const auto tangent = static_cast<std::size_t>(row - 1);
     system_.lo[block.row + row] = row == 0 ? 0.0 : -terms.friction[tangent];
@@ -304,7 +318,7 @@ void IterativeSolver::fill_constraint(const Block& block, const Source& source, 
 void IterativeSolver::recall()
 {
   keys_.clear();
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
+  for (const std::size_t i : blocks_) {
     const auto& block = system_.blocks[i];
     auto x = system_.x.segment(block.row, block.size);
     if (!block.contact) {
@@ -313,7 +327,7 @@ void IterativeSolver::recall()
       continue;
     }
     const auto& terms = contacts_[static_cast<std::size_t>(sources_[i].contact)];
-    keys_.push_back(memory.key(*terms.contact));
+    keys_.push_back(terms.touch == nullptr ? memory.key(*terms.contact) : memory.key(*terms.touch));
     const Eigen::Vector3d impulse = memory.recall(keys_.back()).head<3>();
     for (int row = 0; row < block.size; ++row)
       x[row] = impulse.dot(terms.directions[static_cast<std::size_t>(row)]);
@@ -322,7 +336,7 @@ void IterativeSolver::recall()
 
 void IterativeSolver::remember()
 {
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
+  for (const std::size_t i : blocks_) {
     const auto& block = system_.blocks[i];
     const auto x = system_.x.segment(block.row, block.size);
     Eigen::Vector6d impulses = Eigen::Vector6d::Zero();
@@ -332,43 +346,61 @@ void IterativeSolver::remember()
       for (int row = 0; row < block.size; ++row)
         impulses.head<3>()
             += x[row] * contacts_[static_cast<std::size_t>(sources_[i].contact)].directions[static_cast<std::size_t>(row)];
-    memory.remember(keys_[i], impulses);
+    memory.remember(keys_[static_cast<std::size_t>(sources_[i].order)], impulses);
   }
 }
 
-void IterativeSolver::sweep(double time_step)
+void IterativeSolver::sweep(double time_step, double allowance)
 {
-  Sweeps sweeps(system_, options);
-  sweeps.prepare();
-  for (const auto& island : system_.islands) {
-    const auto swept = sweeps.solve(island);
-    iterations_used_ = std::max(iterations_used_, swept.sweeps);
-    residual_ = std::max(residual_, swept.residual);
+  auto used = options;
+  used.allowance = allowance;
+  corrected_.setZero(options.split ? system_.velocities.size() : 0);
+  const auto threads = std::min(static_cast<std::size_t>(options.threads), system_.islands.size());
+  std::vector<Swept> swept(std::max<std::size_t>(threads, 1));
+  const auto solve_share = [&](std::size_t share) {
+    Sweeps sweeps(system_, used);
+    for (std::size_t i = share; i < system_.islands.size(); i += swept.size())
+      solve_island(system_.islands[i], time_step, sweeps, swept[share]);
+  };
+  parallel_for(swept.size(), swept.size(), solve_share);
+  bool corrects = false;
+  for (const auto& share : swept) {
+    iterations_used_ = std::max(iterations_used_, share.sweeps);
+    residual_ = std::max(residual_, share.residual);
+    corrects |= share.corrects;
   }
   if (!system_.x.allFinite() || !system_.velocities.allFinite()) {
     dterr << "[IterativeSolver] The contact and joint impulses are not numbers; this step has none.\n";
     system_.x.setZero();
     system_.velocities.setZero();
-  } else if (options.split) {
-    find_corrections(time_step, sweeps);
+  } else if (corrects) {
+    keep_corrections();
   }
 }
 
-void IterativeSolver::find_corrections(double time_step, Sweeps& sweeps)
+void IterativeSolver::solve_island(const BlockSystem::Island& island, double time_step, Sweeps& sweeps, Swept& all)
 {
-  corrected_.setZero(system_.velocities.size());
-  bool any = false;
-  for (const auto& island : system_.islands)
-    any |= sweeps.find_corrections(island, time_step, corrected_);
-  if (any)
-    movers_.each_joint(corrected_, [this](dart::dynamics::Joint& joint, const Eigen::VectorXd& change) {
-      if (change.allFinite())
-        corrections_.push_back({&joint, change, {}});
-    });
+  sweeps.prepare(island);
+  const auto one = sweeps.solve(island);
+  all.sweeps = std::max(all.sweeps, one.sweeps);
+  all.residual = std::max(all.residual, one.residual);
+  if (options.split)
+    all.corrects |= sweeps.find_corrections(island, time_step, corrected_);
+}
+
+void IterativeSolver::keep_corrections()
+{
+  if (corrected_.allFinite())
+    movers_.correct_free(corrected_);
+  movers_.each_joint(corrected_, [this](dart::dynamics::Joint& joint, const Eigen::VectorXd& change) {
+    if (change.allFinite())
+      corrections_.push_back({&joint, change, {}});
+  });
 }
 
 void IterativeSolver::apply(double time_step)
 {
+  movers_.move_free_in_array(system_.velocities);
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const auto& block = system_.blocks[i];
     const auto& source = sources_[i];

@@ -19,7 +19,8 @@ class IterativeSolver
 public:
   IterativeOptions options;
 
-  void begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons);
+  /// Of the skeletons of a world; `same` if none has changed since the step before but for its state.
+  void begin_step(const std::vector<dart::dynamics::SkeletonPtr>& skeletons, bool same, FreeBodies* free);
 
   /// Whether it knows a constraint that is not a contact.
   static bool knows(const dart::constraint::ConstraintBase& constraint);
@@ -30,10 +31,18 @@ public:
     if (constraint->getDimension() > 0)
       constraints_.push_back(constraint);
   }
-  void add(dart::collision::Contact& contact) { contacts_.push_back(reader_.read(contact)); }
+  /// `touch` of the native detector, or null.
+  void add(dart::collision::Contact& contact, const native::Touch* touch)
+  {
+    contacts_.push_back(reader_.read(contact, touch));
+    contacts_.back().touch = touch;
+    if (contact.penetrationDepth < 0.0 && contacts_.back().bounces()) // else it would come to rest where it should bounce
+      contacts_.pop_back();
+  }
 
   /// Finds the impulses, which are remembered for the next step, and hands them to the trees; the contacts get their
-  /// forces. Depths are doubted where the detector's may be wrong. Free bodies have theirs when move_free_bodies() is called.
+  /// forces. `doubt` a detector whose depths may be wrong and that does not see what nearly touches. Free bodies have
+  /// theirs when move_free_bodies() is called, but for those in an array, which have theirs at once.
   void solve(double time_step, bool warm, bool reduce, bool doubt);
   void move_free_bodies(double time_step);
 
@@ -56,7 +65,7 @@ private:
   {
     int constraint = -1, contact = -1;
     std::array<Movers::Place, 2> places{};
-    int island = 0;
+    int island = 0, order = 0; ///< The order in which they came.
   };
   struct Correction
   {
@@ -74,11 +83,12 @@ private:
   void fill_constraint(const Block& block, const Source& source, double time_step);
   void recall();
   void remember();
-  void sweep(double time_step);
+  void sweep(double time_step, double allowance);
   void apply(double time_step);
   void apply_contact(const Block& block, const Source& source, double time_step);
   void apply_wrench(Movers::Place place, dart::dynamics::BodyNode& body, const Eigen::Vector6d& wrench) const;
-  void find_corrections(double time_step, Sweeps& sweeps);
+  void solve_island(const BlockSystem::Island& island, double time_step, Sweeps& sweeps, Swept& all);
+  void keep_corrections();
 
   ContactReader reader_;
   std::vector<ContactTerms> contacts_;
@@ -88,7 +98,8 @@ private:
   std::vector<Source> sources_; ///< In the order of the blocks.
   std::vector<int> island_of_; ///< Of each mover.
   BlockSystem system_;
-  std::vector<ContactMemory::Key> keys_;
+  std::vector<std::size_t> blocks_; ///< Of the sources in the order in which they came.
+  std::vector<ContactMemory::Key> keys_; ///< In that order.
   Eigen::VectorXd corrected_;
   std::vector<Correction> corrections_;
   int iterations_used_ = 0;

@@ -20,18 +20,29 @@ bool free_and_alone(const BodyNode& body)
 
 } // namespace
 
-void Movers::clear()
+void Movers::begin(FreeBodies* free)
 {
+  free_ = free;
+  of_free_.assign(free == nullptr ? 0 : free->size(), none);
+  read_.clear();
   movers_.clear();
   places_.clear();
   trees_.clear();
   of_tree_.clear();
 }
 
-Movers::Place Movers::add(BodyNode* body)
+Movers::Place Movers::add(BodyNode* body, int place_of_free)
 {
   if (body == nullptr)
     return {};
+  if (place_of_free != none) {
+    int& mover = of_free_[static_cast<std::size_t>(place_of_free)];
+    if (mover == none) {
+      mover = size();
+      movers_.push_back({none, 0, 6, &(*free_)[static_cast<std::size_t>(place_of_free)], true});
+    }
+    return {mover, none};
+  }
   if (const auto known = places_.find(body); known != places_.end())
     return known->second;
   Place place;
@@ -39,9 +50,8 @@ Movers::Place Movers::add(BodyNode* body)
     // stays where it is
   } else if (free_and_alone(*body)) {
     place.mover = size();
-    movers_.emplace_back();
-    movers_.back().node = body;
-    movers_.back().joint = static_cast<FreeJoint*>(body->getParentJoint());
+    read_.push_back(FreeBodies::read(*body));
+    movers_.push_back({none, 0, 6, &read_.back(), false});
   } else {
     place = add_to_trees(*body);
   }
@@ -74,9 +84,7 @@ void Movers::prepare()
   trees_.prepare();
   starts_.resize(static_cast<std::size_t>(trees_.size()));
   for (auto& mover : movers_)
-    if (mover.tree == none)
-      read(mover);
-    else
+    if (mover.tree != none)
       mover.size = 0;
   for (int body = 0; body < trees_.size(); ++body) {
     auto& size = at(of_tree_[static_cast<std::size_t>(trees_.tree(body))]).size;
@@ -85,24 +93,9 @@ void Movers::prepare()
   }
 }
 
-void Movers::read(Mover& mover)
-{
-  const auto& pose = mover.node->getWorldTransform();
-  const auto& inertia = mover.node->getInertia();
-  const auto& velocity = mover.node->getSpatialVelocity();
-  mover.turn = pose.linear();
-  mover.offset = mover.turn * inertia.getLocalCOM();
-  mover.center = pose.translation() + mover.offset;
-  mover.inverse_mass = 1.0 / inertia.getMass();
-  const Eigen::Matrix3d local = inertia.getMoment().inverse();
-  mover.inverse_inertia.noalias() = mover.turn * local * mover.turn.transpose();
-  mover.velocity.head<3>() = mover.turn * velocity.head<3>();
-  mover.velocity.tail<3>() = mover.turn * velocity.tail<3>() + mover.velocity.head<3>().cross(mover.offset);
-}
-
 void Movers::point_row(int mover, const Vector3d& point, const Vector3d& direction, double* J, double* Y) const
 {
-  const auto& body = at(mover);
+  const auto& body = *at(mover).body;
   const Vector3d moment = (point - body.center).cross(direction);
   Eigen::Map<Vector3d>(J, 3) = moment;
   Eigen::Map<Vector3d>(J + 3, 3) = direction;
@@ -112,7 +105,7 @@ void Movers::point_row(int mover, const Vector3d& point, const Vector3d& directi
 
 double Movers::speed(int mover, const double* J) const
 {
-  return Eigen::Map<const Vector6>(J).dot(at(mover).velocity);
+  return Eigen::Map<const Vector6>(J).dot(at(mover).body->velocity);
 }
 
 void Movers::wrench_row(
@@ -131,9 +124,9 @@ void Movers::wrench_row(
       trees_.add_generalised(bodies[side], wrench, starts_, J[side]);
       continue;
     }
-    const auto& body = at(mover);
-    const Vector3d force = body.turn * wrench.tail<3>();
-    const Vector3d moment = body.turn * wrench.head<3>() - body.offset.cross(force);
+    const auto& body = *at(mover).body;
+    const Vector3d force = body.pose.linear() * wrench.tail<3>();
+    const Vector3d moment = body.pose.linear() * wrench.head<3>() - body.offset.cross(force);
     Eigen::Map<Vector6>(J[side]) << moment, force;
     Eigen::Map<Vector6>(Y[side]) << body.inverse_inertia * moment, body.inverse_mass * force;
   }
@@ -164,22 +157,38 @@ void Movers::answer_of_tree(int tree, double* Y) const
 Movers::Vector6 Movers::joint_change(const Mover& mover, const Eigen::VectorXd& velocities) const
 {
   const Vector3d turning = velocities.segment<3>(mover.start);
-  const Vector3d moving = velocities.segment<3>(mover.start + 3) - turning.cross(mover.offset);
+  const auto& body = *mover.body;
+  const Vector3d moving = velocities.segment<3>(mover.start + 3) - turning.cross(body.offset);
   Vector6 twist;
-  twist.head<3>() = mover.turn.transpose() * turning;
-  twist.tail<3>() = mover.turn.transpose() * moving;
-  return dart::math::AdInvT(mover.joint->getTransformFromChildBodyNode(), twist);
+  twist.head<3>() = body.pose.linear().transpose() * turning;
+  twist.tail<3>() = body.pose.linear().transpose() * moving;
+  return dart::math::AdInvT(body.joint->getTransformFromChildBodyNode(), twist);
 }
 
 void Movers::move_free(const Eigen::VectorXd& velocities, double time_step) const
 {
   for (const auto& mover : movers_) {
-    if (mover.tree != none)
+    if (mover.tree != none || mover.in_array)
       continue;
     const Vector6 change = joint_change(mover, velocities);
-    mover.joint->setVelocitiesStatic(mover.joint->getVelocitiesStatic() + change);
-    mover.joint->setAccelerationsStatic(mover.joint->getAccelerationsStatic() + change / time_step);
+    auto& joint = *mover.body->joint;
+    joint.setVelocitiesStatic(joint.getVelocitiesStatic() + change);
+    joint.setAccelerationsStatic(joint.getAccelerationsStatic() + change / time_step);
   }
+}
+
+void Movers::move_free_in_array(const Eigen::VectorXd& velocities)
+{
+  for (auto& mover : movers_)
+    if (mover.in_array)
+      FreeBodies::change(*mover.body, velocities.segment<6>(mover.start));
+}
+
+void Movers::correct_free(const Eigen::VectorXd& velocities)
+{
+  for (auto& mover : movers_)
+    if (mover.in_array)
+      mover.body->correction = velocities.segment<6>(mover.start);
 }
 
 } // namespace pydart2

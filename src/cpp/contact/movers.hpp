@@ -2,9 +2,11 @@
 
 #include <array>
 #include <dart/dynamics/FreeJoint.hpp>
+#include <deque>
 #include <unordered_map>
 #include <vector>
 
+#include "dynamics/free_bodies.hpp"
 #include "dynamics/tree_impulses.hpp"
 
 namespace pydart2 {
@@ -23,10 +25,11 @@ public:
     int mover = none, body = none;
   };
 
-  void clear();
+  /// For a step; `free` bodies are in an array, if not null.
+  void begin(FreeBodies* free);
 
-  /// Where a body is, with no mover if no impulse moves it.
-  Place add(dart::dynamics::BodyNode* body);
+  /// Where a body is, with no mover if no impulse moves it; `place` among the free bodies, if it is one.
+  Place add(dart::dynamics::BodyNode* body, int place = none);
 
   /// The same of a body whose joint has rows of its own, and so is part of a tree; before all that add() adds.
   Place add_joint(dart::dynamics::BodyNode& body);
@@ -56,10 +59,14 @@ public:
   /// Of a unit impulse at a joint's degree of freedom.
   void joint_row(Place place, int dof, double* J, double* Y);
 
-  /// Gives the joints of free bodies their share of the change `velocities` of all.
+  /// Gives free bodies their share of the change `velocities` of all: those in the array, or the joints of the others.
+  void move_free_in_array(const Eigen::VectorXd& velocities);
   void move_free(const Eigen::VectorXd& velocities, double time_step) const;
 
-  /// Calls `give(joint, change of its velocities)` for each joint of what moves.
+  /// Gives free bodies in the array what is to correct their positions.
+  void correct_free(const Eigen::VectorXd& velocities);
+
+  /// Calls `give(joint, change of its velocities)` for each joint of what moves, but for the bodies in the array.
   template <class Give>
   void each_joint(const Eigen::VectorXd& velocities, const Give& give) const;
 
@@ -68,22 +75,20 @@ private:
   {
     int tree = none; ///< None: a free body.
     int start = 0, size = 6;
-    dart::dynamics::BodyNode* node = nullptr;
-    dart::dynamics::FreeJoint* joint = nullptr;
-    Eigen::Matrix3d turn, inverse_inertia; ///< In the world's frame.
-    Eigen::Vector3d center, offset; ///< Of the mass, and from the body's origin to it; in the world's frame.
-    double inverse_mass = 0.0;
-    Vector6 velocity;
+    FreeBodies::Body* body = nullptr;
+    bool in_array = false;
   };
 
   Mover& at(int mover) { return movers_[static_cast<std::size_t>(mover)]; }
   const Mover& at(int mover) const { return movers_[static_cast<std::size_t>(mover)]; }
   Place add_to_trees(dart::dynamics::BodyNode& body);
-  static void read(Mover& mover);
   Vector6 joint_change(const Mover& mover, const Eigen::VectorXd& velocities) const;
   void answer_of_tree(int tree, double* Y) const;
 
   std::vector<Mover> movers_;
+  FreeBodies* free_ = nullptr;
+  std::vector<int> of_free_; ///< The mover of each body in the array.
+  std::deque<FreeBodies::Body> read_; ///< Other free bodies.
   std::unordered_map<const dart::dynamics::BodyNode*, Place> places_;
   TreeImpulses trees_;
   std::vector<int> of_tree_; ///< Its mover.
@@ -96,8 +101,10 @@ void Movers::each_joint(const Eigen::VectorXd& velocities, const Give& give) con
   for (const auto& mover : movers_) {
     if (velocities.segment(mover.start, mover.size).isZero(0.0))
       continue;
+    if (mover.in_array)
+      continue;
     if (mover.tree == none) {
-      give(*static_cast<dart::dynamics::Joint*>(mover.joint), Eigen::VectorXd(joint_change(mover, velocities)));
+      give(*static_cast<dart::dynamics::Joint*>(mover.body->joint), Eigen::VectorXd(joint_change(mover, velocities)));
       continue;
     }
     for (int body = trees_.first(mover.tree); body != none; body = trees_.next(body))

@@ -20,7 +20,24 @@ struct Reveal
 };
 template struct Reveal<&BodyNodeCollisionFilter::mBodyNodeBlackList>;
 
+using dart::collision::CollisionResult;
+using Contacts = std::vector<dart::collision::Contact>;
+
+Contacts& contacts_in(CollisionResult& result);
+
+template <Contacts CollisionResult::* contacts>
+struct RevealContacts
+{
+  friend Contacts& contacts_in(CollisionResult& result) { return result.*contacts; }
+};
+template struct RevealContacts<&CollisionResult::mContacts>;
+
 } // namespace
+
+std::vector<dart::collision::Contact>& contacts_of(CollisionResult& result)
+{
+  return contacts_in(result);
+}
 
 bool may_collide(const BitsOfBodies& bits, const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b)
 {
@@ -59,7 +76,7 @@ bool PairFilter::surely_collide(const dart::dynamics::BodyNode& a, const dart::d
 {
   if (none_)
     return true;
-  return ignored_ != nullptr && a.isCollidable() && b.isCollidable() && !is_told_to_ignore(a, b);
+  return ignored_ != nullptr && !is_told_to_ignore(a, b);
 }
 
 bool PairFilter::is_told_to_ignore(const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b) const

@@ -2,6 +2,7 @@
 
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/CollisionObject.hpp>
+#include <dart/collision/CollisionResult.hpp>
 #include <cstdint>
 #include <dart/dynamics/BodyNode.hpp>
 #include <unordered_map>
@@ -44,7 +45,8 @@ class PairFilter
 public:
   explicit PairFilter(const dart::collision::CollisionFilter* filter);
 
-  /// Whether a filter is sure to let the bodies collide; what it says else is to be asked of the filter itself.
+  /// Whether a filter is sure to let two bodies collide, both of which are collidable; what it says else is to be asked
+  /// of the filter itself.
   bool surely_collide(const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b) const;
 
   /// Whether the pair or its bits say that the bodies pass through each other.
@@ -57,5 +59,9 @@ private:
   const Pairs* ignored_ = nullptr; ///< Null: some other filter.
   const BitsOfBodies* bits_ = nullptr; ///< Null: all collide.
 };
+
+/// The contacts of a result, without the sets of what touches, which CollisionResult::addContact() fills at some cost and
+/// nothing here reads.
+std::vector<dart::collision::Contact>& contacts_of(dart::collision::CollisionResult& result);
 
 } // namespace pydart2::engine

@@ -139,6 +139,7 @@ void WorldHandle::remove_skeleton(long index)
   ++record.layout;
   record.skeletons.erase(record.skeletons.begin() + static_cast<long>(i));
   record.recording.each_contact([i](double* row) { forget_skeleton(row, static_cast<int>(i)); });
+  record.recording.forget_sleeper(static_cast<int>(i));
   forget_sleeper(record, static_cast<int>(i));
 }
 

@@ -174,6 +174,9 @@ public:
   void frame_states(long index, Output& out) const;
   void frame_contacts(long index, Output& out) const;
 
+  /// Indices of the skeletons that slept, -1 of those that have gone since.
+  void frame_sleepers(long index, Output& out) const;
+
   /// The times of all kept frames.
   void recorded_times(Output& out) const;
 

@@ -73,8 +73,8 @@ void WorldHandle::set_constraint_solver(const std::string& name)
 
 void WorldHandle::iterative_options(Output& out) const
 {
-  const auto numbers = numbers_of(fast_solver(*world().world).iterative().options);
-  vector(out, numbers.size()) = numbers;
+  const auto& options = fast_solver(*world().world).iterative().options;
+  vector(out, 8) << numbers_of(options), double(options.threads);
 }
 
 void WorldHandle::set_iterative_options(const VectorIn& options)
@@ -91,7 +91,7 @@ int WorldHandle::solver_iterations() const
 
 double WorldHandle::solver_residual() const
 {
-  return fast_solver(*world().world).iterative().residual();
+  return fast_solver(*world().world).residual();
 }
 
 bool WorldHandle::deterministic() const

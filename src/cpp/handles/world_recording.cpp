@@ -93,6 +93,12 @@ void WorldHandle::recorded_states(Output& out) const
   }
 }
 
+void WorldHandle::frame_sleepers(long index, Output& out) const
+{
+  const auto& frame = kept_frame(world(), index);
+  std::copy(frame.sleepers(), frame.sleepers() + frame.num_sleepers, out.vector(static_cast<long>(frame.num_sleepers)));
+}
+
 void WorldHandle::frame_contacts(long index, Output& out) const
 {
   const auto& frame = kept_frame(world(), index);

@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "state/sleeping.hpp"
+#include "state/step_plan.hpp"
 #include "state/stepping.hpp"
 
 namespace pydart2 {
@@ -124,6 +125,7 @@ void check_collision(WorldRecord& world)
     }
   };
   const AllMobile for_now(world);
+  plan_through_engine(world);
   try {
     solve_constraints(world, world.world->getTime());
     world.sleep.contacts_found = true;

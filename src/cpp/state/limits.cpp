@@ -75,7 +75,7 @@ void tell(const DegreeOfFreedom& dof)
 
 void tell_of_limits(const WorldRecord& world)
 {
-  for (const auto& item : world.awake()) {
+  for (const auto& item : world.plan.others) {
     if (item->far_beyond.empty())
       continue;
     const auto& places = item->dofs().positions;
@@ -91,7 +91,7 @@ void tell_of_limits(const WorldRecord& world)
 
 void check_limits(WorldRecord& world)
 {
-  for (const auto& item : world.awake()) {
+  for (const auto& item : world.plan.others) {
     if (item->limits_checked)
       continue;
     for (const auto* joint : item->skeleton->getJoints())

@@ -364,6 +364,9 @@ void visit_model(Archive& archive, WorldRecord& record)
   if (archive.is_in())
     apply_collision_filter(record);
   visit_sleep(archive, record.sleep);
+  auto& threads = solver.iterative().options.threads;
+  if (archive.part("solver threads", threads != 1))
+    archive.number([&] { return double(threads); }, [&](double count) { threads = count >= 1.0 && count <= 256.0 ? static_cast<int>(count) : 1; });
 }
 
 } // namespace pydart2

@@ -12,9 +12,14 @@ constexpr std::size_t piece_size = 8192; // numbers
 
 } // namespace
 
+double* Frame::sleepers() const
+{
+  return contacts() + num_contacts * contact_columns;
+}
+
 std::size_t Frame::size() const
 {
-  return num_states + num_contacts * contact_columns;
+  return num_states + num_contacts * contact_columns + num_sleepers;
 }
 
 void Recording::set_enabled(bool enabled)
@@ -34,9 +39,10 @@ void Recording::clear()
   bytes_ = 0;
 }
 
-const Frame& Recording::add(std::size_t num_states, std::size_t num_contacts, int layout, double time)
+const Frame& Recording::add(
+    std::size_t num_states, std::size_t num_contacts, std::size_t num_sleepers, int layout, double time)
 {
-  Frame frame{nullptr, num_states, num_contacts, layout, time};
+  Frame frame{nullptr, num_states, num_contacts, num_sleepers, layout, time};
   if (pieces_.empty() || pieces_.back().capacity < pieces_.back().size + frame.size()) {
     const std::size_t capacity = std::max(piece_size, frame.size());
     pieces_.push_back({std::unique_ptr<double[]>(new double[capacity]), capacity}); // not make_unique, which clears them
@@ -63,6 +69,13 @@ void Recording::each_contact(const std::function<void(double*)>& change)
   for (const auto& frame : frames_)
     for (std::size_t i = 0; i < frame.num_contacts; ++i)
       change(frame.contacts() + i * contact_columns);
+}
+
+void Recording::forget_sleeper(int index)
+{
+  for (const auto& frame : frames_)
+    for (double* sleeper = frame.sleepers(); sleeper != frame.sleepers() + frame.num_sleepers; ++sleeper)
+      *sleeper = *sleeper == index ? -1.0 : *sleeper > index ? *sleeper - 1.0 : *sleeper;
 }
 
 void Recording::set_limit(std::size_t bytes)

@@ -7,15 +7,17 @@
 
 namespace pydart2 {
 
-/// One frame: the states of all skeletons, one after another ([q, dq] each), and the contacts (contact.hpp).
+/// One frame: the states of all skeletons, one after another ([q, dq] each), the contacts (contact.hpp), and the indices
+/// of the skeletons that slept.
 struct Frame
 {
   double* state;
-  std::size_t num_states, num_contacts;
+  std::size_t num_states, num_contacts, num_sleepers;
   int layout; ///< WorldRecord::layout() when it was made.
   double time;
 
   double* contacts() const { return state + num_states; }
+  double* sleepers() const;
   std::size_t size() const; ///< Of the numbers.
   std::size_t bytes() const { return sizeof(Frame) + sizeof(double) * size(); }
 };
@@ -31,7 +33,8 @@ public:
   void clear();
 
   /// A frame more, whose numbers are still to be written.
-  const Frame& add(std::size_t num_states, std::size_t num_contacts, int layout, double time);
+  const Frame& add(
+      std::size_t num_states, std::size_t num_contacts, std::size_t num_sleepers, int layout, double time);
 
   /// Frames since the last clear(), those that are gone included.
   long num_frames() const { return first_ + static_cast<long>(frames_.size()); }
@@ -44,6 +47,9 @@ public:
 
   /// Changes the contacts of all frames, row by row.
   void each_contact(const std::function<void(double*)>& change);
+
+  /// A skeleton has gone: those that slept after it have other indices now, and it has -1.
+  void forget_sleeper(int index);
 
   std::size_t bytes() const { return bytes_; }
   std::size_t limit() const { return limit_; }

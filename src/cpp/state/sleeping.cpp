@@ -220,6 +220,7 @@ std::vector<SkeletonRef> wake_if(WorldRecord& world, Which wakes)
 void find_awake(WorldRecord& world)
 {
   auto& sleep = world.sleep;
+  world.plan.note_change();
   ++sleep.version;
   sleep.asleep.clear();
   sleep.awake.clear();
@@ -276,6 +277,8 @@ std::vector<SkeletonRef> wake_touched(WorldRecord& world, const dart::collision:
       touched.insert(one);
   };
   for (const auto& contact : contacts.getContacts()) {
+    if (contact.penetrationDepth < 0.0) // a gap
+      continue;
     const auto *a = skeleton_of(*contact.collisionObject1), *b = skeleton_of(*contact.collisionObject2);
     touch(a, b);
     touch(b, a);
@@ -301,6 +304,7 @@ void wake(WorldRecord& world, SkeletonRecord& skeleton)
 
 void wake_all(WorldRecord& world)
 {
+  world.plan.note_change();
   if (!world.sleep.enabled)
     return;
   for (const auto& item : world.skeletons)
@@ -311,6 +315,7 @@ void wake_all(WorldRecord& world)
 
 void wake_held(WorldRecord& world, const ConstraintRecord& constraint)
 {
+  world.plan.note_change();
   if (!world.sleep.enabled)
     return;
   for (const auto* body : {constraint.body1, constraint.body2})
@@ -321,6 +326,7 @@ void wake_held(WorldRecord& world, const ConstraintRecord& constraint)
 
 void forget_sleeper(WorldRecord& world, int index)
 {
+  world.plan.note_change();
   for (auto& contact : world.sleep.contacts)
     forget_skeleton(contact.row.data(), index);
   if (world.sleep.enabled)

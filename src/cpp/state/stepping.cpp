@@ -73,6 +73,16 @@ public:
 
 } // namespace
 
+[[noreturn]] static void blown_up(
+    const Skeleton& skeleton, const std::string& where, const char* what, double value, double time)
+{
+  if (const auto* body = skeleton.isMobile() ? weightless_body(skeleton) : nullptr)
+    throw BlowUp("the simulation blew up at t = " + text(time) + " s: " + needs_mass(*body) + "; " + remedy);
+  throw BlowUp(
+      "the simulation blew up at t = " + text(time) + " s: " + what + " of " + where + " in skeleton '" + skeleton.getName()
+      + "' became " + text(value) + "; " + remedy);
+}
+
 /// A skeleton's state, read where the engine keeps it, and a copy to go back to.
 class StateWatch
 {
@@ -167,11 +177,7 @@ private:
 
   [[noreturn]] void blown_up(const std::string& where, const char* what, double value, double time) const
   {
-    if (const auto* body = skeleton_.isMobile() ? weightless_body(skeleton_) : nullptr)
-      throw BlowUp("the simulation blew up at t = " + text(time) + " s: " + needs_mass(*body) + "; " + remedy);
-    throw BlowUp(
-        "the simulation blew up at t = " + text(time) + " s: " + what + " of " + where + " in skeleton '"
-        + skeleton_.getName() + "' became " + text(value) + "; " + remedy);
+    pydart2::blown_up(skeleton_, where, what, value, time);
   }
 
   Skeleton& skeleton_;
@@ -211,7 +217,10 @@ void check_range(const WorldRecord& record, bool ode, double time)
           + body.getName() + "' of skeleton '" + body.getSkeleton()->getName() + "' is " + text(far)
           + " m from the origin along an axis, the range is " + text(limit) + " m");
   };
-  for (const auto& item : record.awake())
+  for (std::size_t i = 0; i < record.plan.free.size(); ++i)
+    if (const auto& body = record.plan.free[i]; !(body.pose.translation().cwiseAbs().maxCoeff() + body.reach <= limit))
+      check(body.pose.translation().cwiseAbs().maxCoeff() + body.reach, "a shape of body", *body.node);
+  for (const auto& item : record.plan.others)
     for (const auto* body : item->skeleton->getBodyNodes()) {
       const double far = body->getWorldTransform().translation().cwiseAbs().maxCoeff();
       check(far, "body", *body);
@@ -294,20 +303,32 @@ void solve(WorldRecord& record, double end)
   auto* group = native_group(solver); // with the order of the shapes
   if (group != nullptr)
     group->set_asleep(record.sleep.asleep, record.sleep.version);
-  if (record.sleep.asleep.empty())
+  auto& plan = record.plan;
+  if (group != nullptr && !plan.same)
+    group->look_again([&plan](const BodyNode* body) -> const Eigen::Isometry3d* {
+      const int place = plan.free.find(body);
+      return place < 0 ? nullptr : &plan.free[static_cast<std::size_t>(place)].pose;
+    });
+  if (record.sleep.asleep.empty() && solver.solver() != Solver::iterative)
     return solver.solve_step(nullptr);
-  const FastConstraintSolver::Awake awake{record.sleep.awake_skeletons, [&](const dart::collision::CollisionResult& contacts) {
+  const auto wake = [&](const dart::collision::CollisionResult& contacts) {
+    std::vector<dart::dynamics::SkeletonPtr> skeletons;
     const auto woken = wake_touched(record, contacts);
-    for (const auto& item : woken) {
+    for (const auto& item : woken) { // in this step through the engine's objects
       item->skeleton->clearConstraintImpulses();
       watch(*item).save();
       predict(record, *item, end);
+      plan.others.push_back(item);
+      skeletons.push_back(item->skeleton);
     }
     if (group != nullptr)
       group->set_asleep(record.sleep.asleep, record.sleep.version);
-    return !woken.empty();
-  }};
-  solver.solve_step(&awake);
+    return skeletons;
+  };
+  FastConstraintSolver::Step step{plan.other_skeletons, &plan.free, plan.same, nullptr};
+  if (!record.sleep.asleep.empty())
+    step.wake = wake;
+  solver.solve_step(&step);
 }
 
 } // namespace
@@ -361,9 +382,11 @@ std::string suspect(const WorldRecord& record)
 std::vector<SkeletonRef> insane_or_fastest(const WorldRecord& record)
 {
   std::vector<SkeletonRef> found;
-  for (const auto& item : record.awake())
+  for (const auto& item : record.plan.others)
     if (!item->watch->is_sane())
       found.push_back(item);
+  if (const auto i = record.plan.free.find_insane(check::huge); i < record.plan.free.size())
+    found.push_back(record.plan.owners[i]);
   const auto* fastest = found.empty() ? find_fastest_dof(record) : nullptr;
   for (const auto& item : record.skeletons)
     if (fastest != nullptr && item->skeleton == fastest->getSkeleton())
@@ -405,16 +428,36 @@ void apply_impulses(SkeletonRecord& item)
   item.skeleton->setImpulseApplied(false);
 }
 
+/// Of the bodies that the engine does not move.
+void check_free(const WorldRecord& record, double end)
+{
+  const auto& free = record.plan.free;
+  const auto i = free.find_insane(check::huge);
+  if (i == free.size())
+    return;
+  const auto& body = free[i];
+  Eigen::Vector6d positions = Eigen::Vector6d::Zero(), velocities;
+  positions.tail<3>() = body.pose.translation();
+  velocities << body.angular, body.linear;
+  for (const auto& [values, what] : {std::pair(velocities, "velocity"), std::pair(positions, "position")})
+    for (int dof = 0; dof < 6; ++dof)
+      if (!sane(values[dof]))
+        blown_up(*body.skeleton, "dof '" + body.joint->getDofName(static_cast<std::size_t>(dof)) + "'", what, values[dof], end);
+}
+
 /// World::step() up to the time, in the same order. Checks come before what would fail an assertion of the engine.
 void phases(WorldRecord& record)
 {
   auto& world = *record.world;
   const double dt = world.getTimeStep(), end = world.getTime() + dt;
-  for (const auto& item : record.awake())
+  auto& plan = record.plan;
+  for (const auto& item : plan.others)
     if (item->skeleton->isMobile())
       predict(record, *item, end);
+  plan.free.predict(world.getGravity(), dt);
+  check_free(record, end);
   solve_constraints(record, end);
-  for (const auto& item : record.awake()) {
+  for (const auto& item : plan.others) {
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
       continue;
@@ -429,7 +472,9 @@ void phases(WorldRecord& record)
     iterative.move_free_bodies(dt);
     iterative.add_corrections();
   }
-  for (const auto& item : record.awake()) {
+  plan.free.integrate(dt);
+  check_free(record, end);
+  for (const auto& item : plan.others) {
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
       continue;
@@ -443,6 +488,7 @@ void phases(WorldRecord& record)
   }
   if (sweeps)
     iterative.take_off_corrections();
+  plan.free.give_back(dt);
 }
 
 /// As Skeleton::clearExternalForces(), which locks a pointer and marks its caches for every body, only for those that
@@ -459,7 +505,7 @@ void clear_external_forces(Skeleton& skeleton)
 
 void go_back(WorldRecord& record)
 {
-  for (const auto& item : record.awake())
+  for (const auto& item : record.plan.others)
     item->watch->restore();
   record.world->getConstraintSolver()->clearLastCollisionResult(); // its forces may not be finite
 }
@@ -473,7 +519,7 @@ void advance(WorldRecord& record)
     return pass(record);
   if (record.deterministic)
     forget_history(record);
-  for (const auto& item : record.awake())
+  for (const auto& item : make_plan(record).others)
     watch(*item).save();
   try {
     phases(record);
@@ -494,7 +540,7 @@ void advance(WorldRecord& record)
         "the simulation blew up at t = " + text(world.getTime() + world.getTimeStep()) + " s: " + error.what() + "; " + where
             + "; " + remedy);
   }
-  for (const auto& item : record.awake())
+  for (const auto& item : record.plan.others)
     if (item->skeleton->isMobile()) {
       item->skeleton->clearInternalForces();
       clear_external_forces(*item->skeleton);

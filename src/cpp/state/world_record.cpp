@@ -30,6 +30,7 @@ void WorldRecord::become_not_numbers(SkeletonRecord& skeleton)
   skeleton.not_numbers.emplace(*skeleton.skeleton);
   skeleton.not_numbers->become_not_numbers();
   blown_up = true;
+  plan.note_change();
 }
 
 void WorldRecord::become_numbers(SkeletonRecord& skeleton)
@@ -80,16 +81,21 @@ void WorldRecord::clear()
   ignored_pairs.clear();
   collision_bits.clear();
   sleep = {};
+  plan = {};
   skeletons.clear();
   world.reset();
 }
 
 void WorldRecord::record_frame()
 {
-  const auto& frame
-      = recording.add(static_cast<std::size_t>(num_states(*this)), num_contacts(*this), layout, world->getTime());
+  const auto& frame = recording.add(
+      static_cast<std::size_t>(num_states(*this)), num_contacts(*this), sleep.asleep.size(), layout, world->getTime());
   write_states(*this, frame.state);
   write_contacts(*this, frame.contacts());
+  double* sleeper = frame.sleepers();
+  for (std::size_t i = 0; i < skeletons.size() && frame.num_sleepers > 0; ++i)
+    if (skeletons[i]->island != 0)
+      *sleeper++ = double(i);
   for (const auto& skeleton : skeletons)
     skeleton->recorded = true;
 }
@@ -100,6 +106,7 @@ void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::st
   skeleton->setName(free_name(skeleton->getName()));
   world->addSkeleton(skeleton);
   skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton, source, false, source.empty()}));
+  plan.note_change();
   if (sleep.enabled) {
     sleep.awake.push_back(skeletons.back());
     sleep.awake_skeletons.push_back(skeleton);
@@ -108,6 +115,7 @@ void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::st
 
 void WorldRecord::about_to_change(SkeletonRecord& skeleton)
 {
+  plan.note_change(skeleton);
   if (sleep.enabled)
     wake(*this, skeleton);
 }
@@ -127,6 +135,7 @@ std::string WorldRecord::free_name(const std::string& name)
 void WorldRecord::tree_changed(SkeletonRecord& skeleton)
 {
   ++skeleton.structure;
+  plan.note_change();
   skeleton.limits_checked = false;
   if (skeleton.recorded)
     ++layout;

@@ -21,6 +21,7 @@
 #include "state/constraint_record.hpp"
 #include "state/dof_state.hpp"
 #include "state/recording.hpp"
+#include "state/step_plan.hpp"
 
 namespace pydart2 {
 
@@ -80,6 +81,8 @@ struct SkeletonRecord
 
   std::optional<SkeletonIntegrator> made_integrator;
   int integrator_structure = -1;
+  int free = -1;             ///< Its place in the plan's free bodies.
+  long changed_in = -1;      ///< The round of the plan in which it may have changed.
   int island = 0;            ///< With which it sleeps; 0 if it is awake (state/sleeping.hpp).
   double quiet = 0.0;        ///< s for which it has been slow.
   bool controlled = false;   ///< By a function of the user's, so that it never sleeps.
@@ -182,6 +185,7 @@ struct WorldRecord
   bool blown_up = false; ///< Some skeleton reads NaN.
   Recording recording;
   Sleep sleep;
+  StepPlan plan;
 
 private:
   std::map<std::string, int> last_numbers_; ///< Of the names that free_name() has numbered.
