@@ -3,8 +3,8 @@
 # make docs   docs/_build/html, with a picture or clip of each example
 # make wheel  a wheel that carries DART, and the source archive, in dist/; both as an index would check them
 # make engine the same DART with -O3 -DNDEBUG in build/engine/prefix; then PYDART2_DART_PREFIX=build/engine/prefix make ...
-# make test-debian13, make test-packaging, make test-third-party, make test-viewer, make test-solver, make fuzz, make soak,
-#   make mutations, make sanitize, make coverage, make bench   see tests/README.md
+# make test-debian13, make test-packaging, make test-third-party, make test-viewer, make test-launches, make test-solver,
+#   make fuzz, make soak, make mutations, make sanitize, make coverage, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
@@ -15,7 +15,8 @@ FUZZ_LOADS ?= 20000
 FUZZ_CALLS ?= 1000000
 FUZZ_SECONDS ?= 300
 
-.PHONY: demo test ahead docs test-debian13 test-packaging test-third-party test-viewer test-solver features fuzz mutations soak sanitize coverage \
+.PHONY: demo test ahead docs test-debian13 test-packaging test-third-party test-viewer test-launches test-solver features fuzz mutations \
+  soak sanitize coverage \
   bench wheel engine lint setup clean
 
 demo: setup
@@ -54,6 +55,9 @@ test-viewer: setup
 	for model in cubes chain fullbody1 softBodies atlas; do \
 	  PYTHONPATH=tests QT_QPA_PLATFORM=offscreen $(VENV)/bin/python tests/gui/random_events.py 500 $$model >build/events-$$model.log \
 	  && tail -1 build/events-$$model.log || exit 1; done
+
+test-launches: setup
+	$(VENV)/bin/python tests/soak/launches.py 500
 
 soak: setup
 	$(VENV)/bin/python -m pytest -m soak -s
@@ -94,6 +98,7 @@ fuzz: setup
 	$(VENV)/bin/python tests/crash/fuzz_loaders.py $(FUZZ_LOADS) 2>build/fuzz.log || { tail -50 build/fuzz.log; exit 1; }
 	@tail -6 build/fuzz.log
 	$(VENV)/bin/python tests/crash/fuzz_api.py $(FUZZ_CALLS)
+	$(VENV)/bin/python tests/crash/fuzz_worlds.py $(FUZZ_CALLS)
 	$(VENV)/bin/python tests/crash/fuzz_threads.py $(FUZZ_SECONDS)
 
 # Small mistakes, one at a time, each with the tests beside it: which of them no test notices.

@@ -142,8 +142,8 @@ class BodyBuilding:
     def add_heightfield(self, heights: ArrayLike, scale: ArrayLike, **options: Unpack[ShapeOptions]) -> ShapeNode:
         """Add heights, shape (rows, columns), over a grid in the xy plane about the origin, row 0 at the greatest y.
 
-        `scale`, shape (3,): distance of columns and of rows, m, and what heights are multiplied by. No mass. Only
-        Bullet has it, in single precision.
+        `scale`, shape (3,): distance of columns and of rows, m, and what heights are multiplied by. No mass.
+        In single precision.
         """
         return self._add(solids.heightfield(heights, scale), options)
 

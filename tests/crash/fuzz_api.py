@@ -37,6 +37,7 @@ from hypothesis import strategies as st
 import pydart2
 from conformance.models import write_zoo
 from oracle.models import dart_data
+from pydart2 import sensors
 from pydart2.flat import api as flat_api
 
 #: What the documentation promises; anything else is a bug.
@@ -98,9 +99,28 @@ def fresh_worlds() -> list[pydart2.World]:
         zoo = pydart2.World(0.001, write_zoo(Path(folder)), safe=False)
     worlds = [zoo, pydart2.World(0.001, dart_data() / "skel" / "fullbody1.skel", safe=False)]
     worlds += [pydart2.World(0.001, f"skel/{name}.skel") for name in ("cubes", "shapes", "softBodies")]
+    worlds.append(built_world())
     for world in worlds:
         world.check_collision()
     return worlds
+
+
+def built_world() -> pydart2.World:
+    """A world built in code: with constraints, targets, sleepers and a soft body, and the iterative solver."""
+    world = pydart2.World(0.001)
+    world.add_ground()
+    arm = world.add_empty_skeleton("arm")
+    upper = arm.add_body("upper", joint="revolute", position=[0, 1, 0])
+    upper.add_box([0.1, 0.3, 0.1])
+    arm.add_body("lower", upper, joint="revolute", position=[0, 0.3, 0]).add_capsule(0.05, 0.2)
+    box = world.add_box([0.1, 0.1, 0.1], position=[1, 0.05, 0])
+    world.add_soft_box([0.2, 0.2, 0.2], 0.5, [-1, 0.1, 0])
+    pydart2.constraints.DistanceConstraint(upper, box.bodynodes[0], [0, 1, 0], [1, 0, 0], rope=True).add_to_world(world)
+    pydart2.constraints.RevoluteJointConstraint(upper, None, [0, 1, 0], [0, 0, 1]).add_to_world(world)
+    arm.set_targets([0.1, 0.2], kp=10.0, kd=1.0)
+    world.set_constraint_solver("iterative")
+    world.set_sleeping()
+    return world
 
 
 def things_of(world: pydart2.World) -> list[Any]:
@@ -110,7 +130,13 @@ def things_of(world: pydart2.World) -> list[Any]:
         found += [skel, *skel.dofs[::4], *skel.joints, *skel.markers[:1]]
         for body in skel.bodynodes[::2]:
             found += [body, *body.shapenodes, *(node.shape for node in body.shapenodes)]
-    found += [contact for contact in world.collision_result.contacts[:1]]
+    found += [*world.collision_result.contacts[:1], *world.constraints, world.contacts, world.snapshot()]
+    if len(world.constraints) > 1:  # a built world
+        arm, ground = world.skeletons[1], world.skeletons[0]
+        frame = pydart2.SimpleFrame(arm.bodynodes[0])
+        found += [frame, sensors.IMU(frame), sensors.ForceTorque(arm.joints[1]), sensors.JointEncoder(arm.dofs)]
+        found += [sensors.Lidar(frame, np.eye(3)), sensors.Touch(ground.bodynodes[0])]
+        found += [world.distance(arm, ground), world.raycast([0, 5, 0], [0, -1, 0]), world.recording.run]
     return [thing for thing in found if thing is not None]
 
 

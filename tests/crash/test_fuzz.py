@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from crash import fuzz_api, fuzz_models, fuzz_threads
+from crash import fuzz_api, fuzz_models, fuzz_threads, fuzz_worlds
 
 
 def test_damaged_models() -> None:
@@ -40,6 +40,14 @@ def test_hostile_calls() -> None:
     report = fuzz_api.run(4000, first=0)
     assert report.troubles == [] and report.calls >= 4000
     assert report.accepted > 200 and report.refused > 200
+
+
+def test_worlds_as_scripts_use_them() -> None:
+    """With removals, switches and copies between steps; the copies go on bit for bit."""
+    counts, troubles = fuzz_worlds.run(3000, first=0)
+    assert troubles == [] and counts.total() >= 3000
+    accepted = [name for name in fuzz_worlds.DEEDS if counts[name] > 0]
+    assert set(accepted) == set(fuzz_worlds.DEEDS) and counts["refused"] < 0.4 * counts.total()
 
 
 def test_threads() -> None:

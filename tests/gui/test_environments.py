@@ -24,8 +24,8 @@ def run(*command: str, seconds: float = 120.0, **environment: str) -> subprocess
     return subprocess.run(command, capture_output=True, text=True, env=inherited, cwd=ROOT, timeout=seconds)
 
 
-def run_code(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    return run(sys.executable, "-c", textwrap.dedent(code), **environment)
+def run_code(code: str, seconds: float = 120.0, **environment: str) -> subprocess.CompletedProcess[str]:
+    return run(sys.executable, "-c", textwrap.dedent(code), seconds=seconds, **environment)
 
 
 def test_the_window_tests_pass_under_an_x_server(display: str) -> None:
@@ -118,6 +118,36 @@ def test_user_code_that_raises_makes_the_exit_status_1(where: str) -> None:
     assert result.returncode == 1
     assert f"ArithmeticError: in {where}" in result.stderr
     assert "not reached" not in result.stdout
+
+
+GLUT = """
+    import os, signal
+    import pydart2 as pydart
+    class MyWorld(pydart.World):
+        def on_step_event(self):
+            if self.frame == 5:
+                {deed}
+    world = MyWorld(0.001, "./data/skel/cubes.skel")
+    window = pydart.gui.viewer.launch_glut(world)
+    print("closed", world.frame > 0, window.window)
+"""
+
+
+@pytest.mark.parametrize(
+    ("deed", "status"),
+    [
+        ("pass", 0),
+        ("os.kill(os.getpid(), signal.SIGINT)", 0),
+        ("raise SystemExit(3)", 3),
+        ("raise ArithmeticError('mine')", 1),
+    ],
+)
+def test_glut_closes_by_itself_by_ctrl_c_and_by_exit(deed: str, status: int, display: str) -> None:
+    seconds = "60" if "kill" in deed or "Exit" in deed else "1"
+    result = run_code(GLUT.format(deed=deed), DISPLAY=display, PYDART2_VIEWER_SECONDS=seconds, seconds=45.0)
+    assert result.returncode == status, result.stderr
+    assert ("closed True None" in result.stdout.splitlines()) is (status == 0)
+    assert ("ArithmeticError: mine" in result.stderr) is (status == 1)
 
 
 def test_ctrl_c_closes_the_window() -> None:

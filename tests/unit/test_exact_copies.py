@@ -98,3 +98,50 @@ def test_copies_of_what_was_built_go_on_as_the_original(detector: str) -> None:
     world.restore(snapshot)
     world.step(300)
     np.testing.assert_array_equal(copied.x, world.x)
+
+
+@pytest.mark.parametrize("detector", ["fcl", "bullet", "native"])
+def test_copies_made_right_after_something_came_beside_soft_bodies(detector: str) -> None:
+    """The skin has been pressed in, and the detector meets the newcomer at the copy."""
+    world = pydart2.World(0.001, "skel/softBodies.skel")
+    world.set_collision_detector(detector)
+    world.step(200)
+    for i, name in enumerate(["box", "sphere"]):
+        add = world.add_box if name == "box" else world.add_sphere
+        at = np.add(world.skeletons[i + 1].C, [0.02, 0.05, 0.01])
+        add([0.2, 0.2, 0.2] if name == "box" else 0.1, 1.0, at)
+    snapshot, copied = world.snapshot(), pickle.loads(pickle.dumps(world))
+    for one in (world, copied):
+        one.step(60)
+    np.testing.assert_array_equal(copied.x, world.x)
+    world.restore(snapshot)
+    world.step(60)
+    np.testing.assert_array_equal(copied.x, world.x)
+
+
+def test_forces_outside_of_limits_that_came_later_are_kept() -> None:
+    """A force limit above 0 leaves the force of 0 that is there, until the next is set."""
+    world = pydart2.World(0.001, "skel/chain.skel")
+    for dof in world.skeletons[0].dofs:
+        dof.set_force_lower_limit(5.0)
+    snapshot = world.snapshot()
+    world.step()
+    end = world.x
+    for _ in range(2):
+        world.restore(snapshot)
+        world.step()
+        np.testing.assert_array_equal(world.x, end)
+
+
+def test_the_iterative_solver_remembers_groups_with_soft_bodies_too() -> None:
+    world = pydart2.World(0.001, "skel/softBodies.skel")
+    world.set_constraint_solver("iterative")
+    world.step(300)
+    assert len(world.collision_result.contacts) > 0
+    snapshot, copied = world.snapshot(), world.clone()
+    for one in (world, copied):
+        one.step(100)
+    np.testing.assert_array_equal(copied.x, world.x)
+    world.restore(snapshot)
+    world.step(100)
+    np.testing.assert_array_equal(copied.x, world.x)

@@ -3,11 +3,13 @@ current OpenGL context in the compatibility profile."""
 
 from __future__ import annotations
 
+import sys
 import time
 from typing import Any
 
 from pydart2.errors import PydartError
 from pydart2.gui.capture import CaptureFolder
+from pydart2.gui.closing import interrupt_calls, seconds_to_show
 from pydart2.gui.context import load_opengl
 from pydart2.gui.display import require_x_display
 from pydart2.gui.opengl.scene import OpenGLScene
@@ -55,6 +57,8 @@ class GLUTWindow:
         self.is_animating = False
         self.window: int | None = None
         self._action = ""
+        self._interrupted = False
+        self._raised: BaseException | None = None
 
     @property
     def frame_index(self) -> int:
@@ -153,6 +157,14 @@ class GLUTWindow:
 
     def idle(self) -> None:
         """One step when simulating, or the next recorded frame when animating; an error ends both."""
+        try:
+            self._idle()
+        except BaseException as raised:  # such as SystemExit, which GLUT's loop would swallow
+            self._raised = raised
+        if self._interrupted or self._raised is not None:
+            self.close()
+
+    def _idle(self) -> None:
         if self.sim is None:
             return
         if self.is_simulating:
@@ -187,6 +199,9 @@ class GLUTWindow:
     def run(self) -> None:
         """Show the window, and come back when it is closed.
 
+        With PYDART2_VIEWER_SECONDS=N in the environment it plays at once and closes after N seconds; the process
+        then ends with status 1 if user code has raised.
+
         Raises
         ------
         NoDisplayError
@@ -212,8 +227,22 @@ class GLUTWindow:
         GLUT.glutMotionFunc(self.motionFunc)
         GLUT.glutTimerFunc(_REDRAW_MS, self.renderTimer, 1)
         self.initGL(*self.window_size)
-        GLUT.glutMainLoop()
+        self._interrupted, self._raised = False, None
+        seconds = seconds_to_show()
+        if seconds is not None:
+            self.is_simulating = True
+            GLUT.glutTimerFunc(round(1000.0 * seconds), lambda _: self._interrupt(), 0)
+        with interrupt_calls(self._interrupt):
+            GLUT.glutMainLoop()
         self.window = None
+        if self._raised is not None:
+            raise self._raised
+        if seconds is not None and self.runtime.errors:
+            sys.exit(1)
+
+    def _interrupt(self) -> None:
+        """Close at the next idle call: in the midst of a picture GLUT would end the process."""
+        self._interrupted = True
 
 
 def init_glut(title: str) -> None:

@@ -1,15 +1,13 @@
-"""The Qt application: made when there is a display, with errors and Ctrl+C that do not end the process."""
+"""The Qt application: made when there is a display, with errors that do not end the process."""
 
 from __future__ import annotations
 
 import atexit
-import signal
 import sys
-import threading
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from types import FrameType, TracebackType
+from types import TracebackType
 
 from PyQt5 import sip
 from PyQt5.QtCore import Qt
@@ -67,20 +65,3 @@ def exceptions_to(report: Callable[[str], object]) -> Iterator[None]:
         yield
     finally:
         sys.excepthook = before
-
-
-@contextmanager
-def interrupt_calls(close: Callable[[], object]) -> Iterator[None]:
-    """Within it Ctrl+C calls `close`; in a thread other than the main one it stays as it is."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def handler(_signal: int, _frame: FrameType | None) -> None:
-        close()
-
-    before = signal.signal(signal.SIGINT, handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import sys
 from signal import SIGINT
 from types import FrameType
@@ -14,8 +13,9 @@ from PyQt5.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QRe
 from PyQt5.QtWidgets import QActionGroup, QApplication, QHBoxLayout, QVBoxLayout, QWidget
 
 from pydart2.gui.capture import CaptureFolder
+from pydart2.gui.closing import interrupt_calls, seconds_to_show
 from pydart2.gui.pyqt5 import actions, style
-from pydart2.gui.pyqt5.application import application, exceptions_to, interrupt_calls
+from pydart2.gui.pyqt5.application import application, exceptions_to
 from pydart2.gui.pyqt5.commands import Commands
 from pydart2.gui.pyqt5.glwidget import make_picture
 from pydart2.gui.pyqt5.inspector import Inspector
@@ -26,7 +26,6 @@ from pydart2.gui.pyqt5.status import StatusView
 from pydart2.gui.runtime import Runtime
 from pydart2.simulation.up import up_of
 
-SECONDS = "PYDART2_VIEWER_SECONDS"
 _PICTURE_SIZE = (1280, 720)
 _ACTIVE_MS, _PAUSED_MS = 33, 250  # between two pictures
 _WAIT_MS = 2
@@ -363,14 +362,14 @@ class PyQt5Window(Scripted):
         With PYDART2_VIEWER_SECONDS=N in the environment it plays at once and closes after N seconds; the process
         then ends with status 1 if user code has raised.
         """
-        seconds = os.environ.get(SECONDS)
+        seconds = seconds_to_show()
         with exceptions_to(self.runtime.fail), interrupt_calls(self.close):
             self.show()
-            if seconds:
+            if seconds is not None:
                 self.playAction.setChecked(True)
-                QTimer.singleShot(round(1000.0 * float(seconds)), self.close)
+                QTimer.singleShot(round(1000.0 * seconds), self.close)
             self.app.exec_()
-        if seconds and self.runtime.errors:
+        if seconds is not None and self.runtime.errors:
             sys.exit(1)
 
     def run_application(self) -> None:

@@ -1,8 +1,65 @@
 #include "collision/engine_detectors.hpp"
 
+#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <dart/collision/bullet/BulletCollisionObject.hpp>
+#include <dart/dynamics/HeightmapShape.hpp>
+#include <dart/dynamics/ShapeFrame.hpp>
+#include <memory>
+
 namespace pydart2 {
 
+using dart::collision::BulletCollisionObject;
+using dart::collision::BulletCollisionShape;
+using dart::dynamics::HeightmapShapef;
+
 namespace {
+
+/// Bullet's shape, which points to heights, and these, with Bullet's first row at the least y.
+struct Terrain : BulletCollisionShape
+{
+  using Heights = HeightmapShapef::HeightField;
+
+  explicit Terrain(const HeightmapShapef& shape) : Terrain(shape, std::make_unique<Heights>(shape.getHeightField().colwise().reverse()))
+  {
+  }
+
+private:
+  Terrain(const HeightmapShapef& shape, std::unique_ptr<Heights> heights)
+    : BulletCollisionShape(field(shape, *heights), middle(shape)), heights_(std::move(heights))
+  {
+  }
+
+  static std::unique_ptr<btCollisionShape> field(const HeightmapShapef& shape, const Heights& heights)
+  {
+    constexpr int z = 2;
+    auto made = std::make_unique<btHeightfieldTerrainShape>(
+        static_cast<int>(shape.getWidth()), static_cast<int>(shape.getDepth()), heights.data(), 1.0F, shape.getMinHeight(),
+        shape.getMaxHeight(), z, PHY_FLOAT, false);
+    const auto& scale = shape.getScale();
+    made->setLocalScaling({scale.x(), scale.y(), scale.z()});
+    made->setUseZigzagSubdivision(true);
+    return made;
+  }
+
+  /// Bullet's origin is in the middle of the heights.
+  static btTransform middle(const HeightmapShapef& shape)
+  {
+    const float height = (shape.getMaxHeight() + shape.getMinHeight()) * 0.5F * shape.getScale().z();
+    return btTransform(btMatrix3x3::getIdentity(), {0.0F, 0.0F, height});
+  }
+
+  std::unique_ptr<Heights> heights_;
+};
+
+struct TerrainObject : BulletCollisionObject
+{
+  TerrainObject(
+      dart::collision::CollisionDetector* detector, const dart::dynamics::ShapeFrame* frame,
+      const std::shared_ptr<BulletCollisionShape>& terrain)
+    : BulletCollisionObject(detector, frame, terrain)
+  {
+  }
+};
 
 using K = ShapeKind;
 
@@ -27,6 +84,13 @@ BulletDetector::BulletDetector() : CompletedDetector(bullet_does) {}
 std::shared_ptr<BulletDetector> BulletDetector::create()
 {
   return std::shared_ptr<BulletDetector>(new BulletDetector());
+}
+
+std::unique_ptr<dart::collision::CollisionObject> BulletDetector::createCollisionObject(const dart::dynamics::ShapeFrame* frame)
+{
+  if (const auto* heights = dynamic_cast<const HeightmapShapef*>(frame->getShape().get()))
+    return std::make_unique<TerrainObject>(this, frame, std::make_shared<Terrain>(*heights));
+  return BulletCollisionDetector::createCollisionObject(frame);
 }
 
 DartDetector::DartDetector() : CompletedDetector(dart_does) {}

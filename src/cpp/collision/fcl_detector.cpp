@@ -7,7 +7,10 @@
 #include <dart/dynamics/EllipsoidShape.hpp>
 #include <dart/dynamics/MeshShape.hpp>
 #include <dart/dynamics/PyramidShape.hpp>
+#include <dart/dynamics/PointMass.hpp>
 #include <dart/dynamics/ShapeFrame.hpp>
+#include <dart/dynamics/SoftBodyNode.hpp>
+#include <dart/dynamics/SoftMeshShape.hpp>
 #include <dart/dynamics/SphereShape.hpp>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <map>
@@ -116,6 +119,23 @@ std::shared_ptr<const Tree> make_tree(const ConstShapePtr& shape)
   const auto made = std::make_shared<Made>();
   made->geometry = made->maker.claimFCLCollisionGeometry(shape);
   return {made, static_cast<const Tree*>(made->geometry.get())};
+}
+
+/// A tree over the points at rest, as the engine makes it when the body is new. Each step moves its triangles and fits its
+/// nodes, but which triangle is in which node stays: it must not depend on when the tree was made.
+std::shared_ptr<Tree> make_soft(const SoftBodyNode& body)
+{
+  auto tree = std::make_shared<Tree>();
+  tree->beginModel();
+  for (std::size_t i = 0; i < body.getNumFaces(); ++i) {
+    const auto corner = [&](int k) -> ::fcl::Vector3<double> {
+      const auto& at = body.getPointMass(static_cast<std::size_t>(body.getFace(i)[k]))->getRestingPosition();
+      return at.cast<float>().cast<double>(); // as Assimp keeps them
+    };
+    tree->addTriangle(corner(0), corner(1), corner(2));
+  }
+  tree->endModel();
+  return tree;
 }
 
 /// All that the engine makes a tree of: kind of shape, imported file, sizes.
@@ -245,6 +265,8 @@ std::shared_ptr<Geometry> FclDetector::geometry(const ConstShapePtr& shape)
   static Forest forest;
   if (const auto [recipe, model] = recipe_of(*shape, getPrimitiveShapeType()); model)
     return std::make_shared<BorrowedTree>(forest.tree(recipe, model));
+  if (const auto* soft = dynamic_cast<const SoftMeshShape*>(shape.get()))
+    return make_soft(*soft->getSoftBodyNode());
   return claimFCLCollisionGeometry(shape);
 }
 

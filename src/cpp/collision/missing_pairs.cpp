@@ -58,7 +58,8 @@ ShapeKind kind_of(const Shape& shape)
       {"HeightmapShape", ShapeKind::heightmap}};
   if (const auto* ellipsoid = dynamic_cast<const dart::dynamics::EllipsoidShape*>(&shape); ellipsoid && ellipsoid->isSphere())
     return ShapeKind::sphere;
-  const auto found = kinds.find(shape.getType());
+  const std::string& type = shape.getType();
+  const auto found = kinds.find(type.substr(0, type.find(' '))); // "HeightmapShape (f)" tells its number type
   return found == kinds.end() ? ShapeKind::other : found->second;
 }
 

@@ -52,7 +52,8 @@ private:
 bool ode_does(ShapeKind a, ShapeKind b)
 {
   const auto misses = [](ShapeKind kind) {
-    return kind == ShapeKind::ellipsoid || kind == ShapeKind::cone || kind == ShapeKind::pyramid || kind == ShapeKind::hull;
+    return kind == ShapeKind::ellipsoid || kind == ShapeKind::cone || kind == ShapeKind::pyramid || kind == ShapeKind::hull
+           || kind == ShapeKind::heightmap;
   };
   return !misses(a) && !misses(b);
 }

@@ -13,7 +13,6 @@ namespace {
 using engine::Rows;
 
 constexpr double part_of_size = 0.02;
-constexpr long numbers_per_entry = 12;
 constexpr std::size_t joint_part = 0, pair_part = 1; // of constraints; shapes are counted from 2
 
 bool less(const ContactMemory::Key& x, const ContactMemory::Key& y)

@@ -40,6 +40,8 @@ public:
   Vector6 recall(const Key& key);
   void remember(const Key& key, const Vector6& impulses) { now_.push_back({key, impulses, false}); }
 
+  static constexpr std::size_t numbers_per_entry = 12;
+
   /// All of it in numbers, and back; false, and nothing changes, if these are other numbers.
   std::vector<double> numbers() const;
   bool restore(const std::vector<double>& numbers);

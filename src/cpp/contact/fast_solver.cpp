@@ -124,14 +124,38 @@ bool FastConstraintSolver::wake(const Step* step)
   return !woken.empty();
 }
 
+namespace {
+
+constexpr double exact_groups = -2.0; ///< Before what is remembered of groups that the iterative solver leaves to the other.
+
+} // namespace
+
 std::vector<double> FastConstraintSolver::memory() const
 {
-  return solver_ == Solver::iterative ? iterative_.memory.numbers() : warm_lcp_.memory();
+  auto exact = warm_lcp_.memory();
+  if (solver_ != Solver::iterative)
+    return exact;
+  const auto swept = iterative_.memory.numbers();
+  if (!exact.empty())
+    exact.insert(exact.begin(), {exact_groups, static_cast<double>(exact.size())});
+  exact.insert(exact.end(), swept.begin(), swept.end());
+  return exact;
 }
 
 bool FastConstraintSolver::remember(const std::vector<double>& memory)
 {
-  return solver_ == Solver::iterative ? iterative_.memory.restore(memory) : warm_lcp_.remember(memory);
+  if (solver_ != Solver::iterative)
+    return warm_lcp_.remember(memory);
+  std::vector<double> exact, swept = memory;
+  if (memory.size() >= 2 && memory[0] == exact_groups) {
+    const double count = memory[1];
+    if (!(count >= 0.0 && count <= static_cast<double>(memory.size() - 2) && count == std::floor(count)))
+      return false;
+    const auto end = memory.begin() + 2 + static_cast<std::ptrdiff_t>(count);
+    exact.assign(memory.begin() + 2, end);
+    swept.assign(end, memory.end());
+  }
+  return swept.size() % ContactMemory::numbers_per_entry == 0 && warm_lcp_.remember(exact) && iterative_.memory.restore(swept);
 }
 
 void FastConstraintSolver::forget()

@@ -4,6 +4,8 @@
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/PointMass.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
+#include <limits>
+#include <utility>
 
 #include "base/archive.hpp"
 #include "base/checks.hpp"
@@ -19,9 +21,27 @@ namespace pydart2 {
 namespace {
 
 using dart::dynamics::BodyNode;
+using dart::dynamics::DegreeOfFreedom;
 using dart::dynamics::PointMass;
 using dart::dynamics::Skeleton;
 using Vector = const Eigen::VectorXd&;
+
+/// Not within limits that may have been set since; setCommand() takes what they leave.
+void set_command(DegreeOfFreedom& dof, double command)
+{
+  dof.setCommand(command);
+  if (dof.getCommand() == command)
+    return;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto force = dof.getForceLimits(), velocity = dof.getVelocityLimits(), acceleration = dof.getAccelerationLimits();
+  dof.setForceLimits(-infinity, infinity);
+  dof.setVelocityLimits(-infinity, infinity);
+  dof.setAccelerationLimits(-infinity, infinity);
+  dof.setCommand(command);
+  dof.setForceLimits(force);
+  dof.setVelocityLimits(velocity);
+  dof.setAccelerationLimits(acceleration);
+}
 
 void visit_dofs(Archive& archive, Skeleton& skeleton)
 {
@@ -42,7 +62,7 @@ void visit_dofs(Archive& archive, Skeleton& skeleton)
   for (auto* dof : skeleton.getDofs()) {
     // A force is also the command of a dof whose actuator takes forces, so it comes first.
     archive.number([&] { return dof->getForce(); }, [&](double force) { dof->setForce(force); });
-    archive.number([&] { return dof->getCommand(); }, [&](double command) { dof->setCommand(command); });
+    archive.number([&] { return dof->getCommand(); }, [&](double command) { set_command(*dof, command); });
     archive.number(
         [&] { return dof->getConstraintImpulse(); }, [&](double impulse) { dof->setConstraintImpulse(impulse); });
   }
@@ -166,6 +186,8 @@ void forget_history(WorldRecord& record)
 {
   auto& solver = *record.world->getConstraintSolver();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
+  if (std::exchange(record.shapes_changed, false))
+    use_detector(solver, solver.getCollisionDetector());
   renew_detector(solver);
   for (auto& constraint : record.constraints)
     renew(constraint, solver);
