@@ -17,8 +17,11 @@ VERSION = 1
 
 def model_hash(handle: WorldHandle) -> str:
     """A digest of all that is not state: names, trees, masses, limits, shapes, gravity, detector and so on."""
+    if known := handle.known_model_digest():
+        return known
     digest = hashlib.sha256(handle.model_numbers().tobytes())
     digest.update("\0".join(handle.model_texts()).encode("utf-8", "surrogateescape"))
+    handle.remember_model_digest(digest.hexdigest())
     return digest.hexdigest()
 
 

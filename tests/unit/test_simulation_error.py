@@ -147,3 +147,15 @@ def test_an_empty_world_steps() -> None:
     world = pydart2.World(0.01)
     world.step(3)
     assert world.t == pytest.approx(0.03) and world.frame == 3
+
+
+def test_a_shape_that_moves_out_of_the_detectors_range(tmp_path: Path) -> None:
+    """What was found within it is looked at again."""
+    world = make_world(tmp_path, free_body(shape=box((0.1, 0.1, 0.1))), gravity=(0.0, 0.0, 0.0))
+    node = world.skeletons[0].bodynodes[0].shapenodes[0]
+    world.step(3)
+    node.set_relative_transform([[1, 0, 0, 2e12], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+    with pytest.raises(SimulationError, match="a shape of body .* is 2e\\+12 m from the origin"):
+        world.step()
+    node.set_relative_transform(np.eye(4))
+    world.step()

@@ -42,7 +42,7 @@ public:
   template <class Get, class Set>
   void vector(Get get, Set set)
   {
-    Eigen::VectorXd now = get();
+    const auto now = get(); // of fixed size or not
     const auto size = static_cast<std::size_t>(now.size());
     if (!is_in()) {
       numbers.insert(numbers.end(), now.data(), now.data() + size);

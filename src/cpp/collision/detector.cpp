@@ -1,5 +1,7 @@
 #include "collision/detector.hpp"
 
+#include <algorithm>
+
 #include "base/errors.hpp"
 #include "collision/engine_detectors.hpp"
 #include "collision/fcl_detector.hpp"
@@ -61,7 +63,7 @@ void replace_detector(ConstraintSolver& solver)
   use_detector(solver, detector);
 }
 
-void renew_detector(ConstraintSolver& solver)
+void renew_detector(ConstraintSolver& solver, bool shapes_changed)
 {
   const auto detector = solver.getCollisionDetector();
   const auto group = solver.getCollisionGroup(); // keeps the meshes' trees, which are dear to make
@@ -69,12 +71,20 @@ void renew_detector(ConstraintSolver& solver)
     use_detector(solver, detector->cloneWithoutCollisionObjects());
   if (detector->getType() == "dart" || detector->getType() == "ode")
     use_detector(solver, detector); // their pairs are in the order in which the shapes came
-  if (detector->getType() == "fcl") {
-    // The new tree depends on where the objects are when they are added; a soft one keeps its last two meshes.
+  if (detector->getType() != "fcl")
+    return;
+  // The new tree depends on where the objects are when they are added; a soft one keeps its last two meshes.
+  const auto& skeletons = solver.getSkeletons();
+  const bool soft = std::any_of(
+      skeletons.begin(), skeletons.end(), [](const auto& skeleton) { return skeleton->getNumSoftBodyNodes() > 0; });
+  if (soft || shapes_changed) {
     for (int i = 0; i < 2; ++i)
       group->collide(CollisionOption(false, 1));
     use_detector(solver, detector);
+    return;
   }
+  group->update();
+  GroupMembers::put_in_again(*group);
 }
 
 ShapeChoice& shape_choice(ConstraintSolver& solver)

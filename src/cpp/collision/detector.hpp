@@ -44,8 +44,8 @@ void replace_detector(dart::constraint::ConstraintSolver& solver);
 /// Of a solver with one of make_detector()'s.
 ShapeChoice& shape_choice(dart::constraint::ConstraintSolver& solver);
 
-/// The same detector without memory of the steps before.
-void renew_detector(dart::constraint::ConstraintSolver& solver);
+/// The same detector without memory of the steps before; if shapes came or went, with those that are there in their order.
+void renew_detector(dart::constraint::ConstraintSolver& solver, bool shapes_changed);
 
 /// Which detector, and how FCL treats primitive shapes.
 void visit_detector(Archive& archive, dart::constraint::ConstraintSolver& solver);

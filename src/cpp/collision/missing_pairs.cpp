@@ -68,9 +68,8 @@ bool MissingPairs::look(const CollisionDetector& detector, const CollisionGroup&
   seen_.clear();
   for (std::size_t i = 0; i < group.getNumShapeFrames(); ++i) {
     const auto* frame = group.getShapeFrame(i);
-    const auto* node = frame->asShapeNode();
     const auto shape = frame->getShape();
-    seen_.push_back({frame, node == nullptr ? nullptr : node->getBodyNodePtr().get(), shape, shape->getVersion()});
+    seen_.push_back({frame, frame->getParentFrame(), shape, shape->getVersion()});
   }
   if (group_ == &group && seen_ == known_ && !scene_.reordered())
     return !objects_.empty();

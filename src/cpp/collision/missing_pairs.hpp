@@ -46,12 +46,12 @@ private:
   struct Known
   {
     const dart::dynamics::ShapeFrame* frame;
-    const dart::dynamics::BodyNode* body;
+    const dart::dynamics::Frame* parent;
     dart::dynamics::ConstShapePtr shape; ///< Kept, so that no other one gets its address.
     std::size_t version;
     bool operator==(const Known& other) const
     {
-      return frame == other.frame && body == other.body && shape == other.shape && version == other.version;
+      return frame == other.frame && parent == other.parent && shape == other.shape && version == other.version;
     }
   };
 

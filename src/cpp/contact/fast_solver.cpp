@@ -93,23 +93,21 @@ void FastConstraintSolver::solve_step(const Step* step)
   std::optional<Exchange> for_now;
   if (step != nullptr)
     for_now.emplace(mSkeletons, step->skeletons);
-  if (solver_ == Solver::iterative)
-    solve_by_sweeps(step);
-  else if (step == nullptr)
-    ConstraintSolver::solve();
-  else
-    solve(*step);
-}
-
-/// The engine's solve(), with what wakes.
-void FastConstraintSolver::solve(const Step& step)
-{
   for (const auto& skeleton : mSkeletons) {
     skeleton->clearConstraintImpulses();
     skeleton->setImpulseApplied(false);
   }
+  if (solver_ == Solver::iterative)
+    solve_by_sweeps(step);
+  else
+    solve_by_groups(step);
+}
+
+/// The engine's solve(), with what wakes, and without flags of colliding bodies that nobody reads.
+void FastConstraintSolver::solve_by_groups(const Step* step)
+{
   updateConstraints();
-  if (wake(&step))
+  if (wake(step))
     updateConstraints();
   buildConstrainedGroups();
   solveConstrainedGroups();

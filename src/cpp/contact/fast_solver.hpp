@@ -90,7 +90,7 @@ protected:
   void solveConstrainedGroup(dart::constraint::ConstrainedGroup& group) override;
 
 private:
-  void solve(const Step& step);
+  void solve_by_groups(const Step* step);
   bool wake(const Step* step);
   void solve_by_sweeps(const Step* step);
   const std::vector<native::Touch>* find_contacts(const Step* step);

@@ -42,10 +42,6 @@ bool has_soft_body(const ConstraintBasePtr& constraint)
 
 void FastConstraintSolver::solve_by_sweeps(const Step* step)
 {
-  for (const auto& skeleton : mSkeletons) {
-    skeleton->clearConstraintImpulses();
-    skeleton->setImpulseApplied(false);
-  }
   if (all_known())
     gather(step);
   else

@@ -155,7 +155,7 @@ void TreeImpulses::solve(int body1, int body2, int row)
     send_down(tree(body2), row);
 }
 
-void TreeImpulses::send_up(Body& body)
+[[gnu::flatten]] void TreeImpulses::send_up(Body& body)
 {
   std::visit(
       [&](auto& joint) {
@@ -173,7 +173,7 @@ void TreeImpulses::send_up(Body& body)
   body.bias.setZero();
 }
 
-void TreeImpulses::send_down(int tree, int row)
+[[gnu::flatten]] void TreeImpulses::send_down(int tree, int row)
 {
   for (int number = first(tree); number != none; number = next(number)) {
     auto& body = bodies_[number];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dart/collision/CollisionGroup.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/PointMass.hpp>
 #include <dart/dynamics/Skeleton.hpp>
@@ -19,6 +20,19 @@ struct SolverMembers : dart::constraint::ConstraintSolver
 {
   static auto& detector_of(ConstraintSolver& solver) { return solver.*(&SolverMembers::mCollisionDetector); }
   static auto& group_of(ConstraintSolver& solver) { return solver.*(&SolverMembers::mCollisionGroup); }
+};
+
+/// A group's objects, which its detector's own library has in an order or a tree that comes of earlier steps.
+struct GroupMembers : dart::collision::CollisionGroup
+{
+  /// As for a new group: where they are now, one after the other.
+  static void put_in_again(CollisionGroup& group)
+  {
+    (group.*(&GroupMembers::updateEngineData))();
+    (group.*(&GroupMembers::removeAllCollisionObjectsFromEngine))();
+    for (const auto& info : group.*(&GroupMembers::mObjectInfoList))
+      (group.*(&GroupMembers::addCollisionObjectToEngine))(info->mObject.get());
+  }
 };
 
 /// The external force on a point of a soft body, in its body's axes.

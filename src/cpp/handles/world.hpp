@@ -160,6 +160,10 @@ public:
   std::vector<std::string> model_texts() const;
   void model_numbers(Output& out) const;
 
+  /// The digest that was remembered, "" if the model has changed since.
+  std::string known_model_digest() const;
+  void remember_model_digest(const std::string& digest) const;
+
   /// What rebuild() makes a world of its own from that is equal in everything but its recording, which is off.
   Blueprint blueprint() const;
   static WorldHandle rebuild(const Blueprint& blueprint);

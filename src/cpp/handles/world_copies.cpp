@@ -48,6 +48,16 @@ void WorldHandle::model_numbers(Output& out) const
   write(archive.numbers, out);
 }
 
+std::string WorldHandle::known_model_digest() const
+{
+  return known_digest(world());
+}
+
+void WorldHandle::remember_model_digest(const std::string& digest) const
+{
+  known_digest(world()) = digest;
+}
+
 Blueprint WorldHandle::blueprint() const
 {
   return blueprint_of(world());

@@ -32,10 +32,10 @@ void visit_soft_body(Archive& archive, SoftBodyNode& body)
 }
 
 /// Mass, COM and the moment of inertia about the COM (xx yy zz xy xz yz).
-Eigen::VectorXd inertia_of(const BodyNode& body)
+Eigen::Matrix<double, 10, 1> inertia_of(const BodyNode& body)
 {
   const auto& inertia = body.getInertia();
-  Eigen::VectorXd values(10);
+  Eigen::Matrix<double, 10, 1> values;
   for (int i = 0; i < 10; ++i)
     values[i] = inertia.getParameter(static_cast<Inertia::Param>(i));
   return values;
@@ -318,7 +318,7 @@ void visit_armature(Archive& archive, WorldRecord& world)
 
 } // namespace
 
-void visit_model(Archive& archive, WorldRecord& record)
+void visit_model(Archive& archive, WorldRecord& record, bool with_skeletons)
 {
   auto& world = *record.world;
   archive.same(std::to_string(record.skeletons.size()) + " skeletons");
@@ -330,10 +330,11 @@ void visit_model(Archive& archive, WorldRecord& record)
     check::finite(VectorIn{g.data(), g.size()}, "gravity");
     world.setGravity(Eigen::Vector3d(g));
   });
-  for (const auto& item : record.skeletons) {
-    visit_skeleton(archive, *item);
-    item->limits_checked &= !archive.is_in();
-  }
+  for (const auto& item : record.skeletons)
+    if (with_skeletons) {
+      visit_skeleton(archive, *item);
+      item->limits_checked &= !archive.is_in();
+    }
   visit_detector(archive, *world.getConstraintSolver());
   auto& solver = fast_solver(world);
   archive.text(
@@ -367,6 +368,36 @@ void visit_model(Archive& archive, WorldRecord& record)
   auto& threads = solver.iterative().options.threads;
   if (archive.part("solver threads", threads != 1))
     archive.number([&] { return double(threads); }, [&](double count) { threads = count >= 1.0 && count <= 256.0 ? static_cast<int>(count) : 1; });
+}
+
+namespace {
+
+/// Whether the numbers and texts are those of before, which they become.
+bool same(Archive& now, KnownModel::Part& before)
+{
+  const bool equal = now.texts == before.texts && now.numbers.size() == before.numbers.size()
+                     && std::memcmp(now.numbers.data(), before.numbers.data(), now.numbers.size() * sizeof(double)) == 0;
+  before = {std::move(now.texts), std::move(now.numbers)};
+  return equal;
+}
+
+} // namespace
+
+std::string& known_digest(WorldRecord& record)
+{
+  auto& known = record.known_model;
+  Archive around;
+  visit_model(around, record, false);
+  bool equal = same(around, known.around);
+  if (known.changes != record.changes) {
+    Archive all;
+    visit_model(all, record);
+    equal &= same(all, known.all);
+    known.changes = record.changes;
+  }
+  if (!equal)
+    known.digest.clear();
+  return known.digest;
 }
 
 } // namespace pydart2

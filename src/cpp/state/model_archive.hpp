@@ -10,6 +10,9 @@ namespace pydart2 {
 /// (bodies, joint types, kinds of shapes) must agree on the way in; ValueError otherwise.
 ///
 /// A setter that is added to a handle needs a line here, so that clones have what it sets.
-void visit_model(Archive& archive, WorldRecord& world);
+void visit_model(Archive& archive, WorldRecord& world, bool with_skeletons = true);
+
+/// The digest that was put here last, empty if the model has changed since.
+std::string& known_digest(WorldRecord& world);
 
 } // namespace pydart2

@@ -47,10 +47,10 @@ Enum one_of(double value, int count)
   return static_cast<Enum>(static_cast<int>(value));
 }
 
-Eigen::VectorXd rows_of(const Eigen::Isometry3d& transform)
+Eigen::Matrix<double, 12, 1> rows_of(const Eigen::Isometry3d& transform)
 {
   const Eigen::Matrix<double, 3, 4> rows = transform.matrix().topRows<3>();
-  return Eigen::Map<const Eigen::VectorXd>(rows.data(), rows.size());
+  return Eigen::Map<const Eigen::Matrix<double, 12, 1>>(rows.data());
 }
 
 Eigen::Isometry3d transform_of(const Eigen::VectorXd& rows)

@@ -9,6 +9,7 @@
 #include <dart/dynamics/PlaneShape.hpp>
 #include <dart/dynamics/PyramidShape.hpp>
 #include <dart/dynamics/SphereShape.hpp>
+#include <typeinfo>
 
 #include "base/checks.hpp"
 #include "state/model_joints.hpp"
@@ -110,27 +111,34 @@ void visit_spheres(Archive& archive, MultiSphereConvexHullShape& shape)
   shape.addSpheres(spheres);
 }
 
+/// Null for a shape of another class.
+template <class Kind>
+Kind* as(Shape& shape)
+{
+  return typeid(shape) == typeid(Kind) ? static_cast<Kind*>(&shape) : nullptr;
+}
+
 void visit_geometry(Archive& archive, Shape& any)
 {
   archive.same(any.getType());
-  if (auto* box = dynamic_cast<BoxShape*>(&any))
+  if (auto* box = as<BoxShape>(any))
     archive.vector([&] { return box->getSize(); }, [&](Vector size) { box->setSize(lengths(size)); });
-  if (auto* ellipsoid = dynamic_cast<EllipsoidShape*>(&any))
+  if (auto* ellipsoid = as<EllipsoidShape>(any))
     archive.vector(
         [&] { return ellipsoid->getDiameters(); }, [&](Vector d) { ellipsoid->setDiameters(lengths(d)); });
-  if (auto* sphere = dynamic_cast<SphereShape*>(&any))
+  if (auto* sphere = as<SphereShape>(any))
     visit_radius(archive, *sphere);
-  if (auto* cylinder = dynamic_cast<CylinderShape*>(&any))
+  if (auto* cylinder = as<CylinderShape>(any))
     visit_long(archive, *cylinder);
-  if (auto* capsule = dynamic_cast<CapsuleShape*>(&any))
+  if (auto* capsule = as<CapsuleShape>(any))
     visit_long(archive, *capsule);
-  if (auto* cone = dynamic_cast<ConeShape*>(&any))
+  if (auto* cone = as<ConeShape>(any))
     visit_long(archive, *cone);
-  if (auto* pyramid = dynamic_cast<PyramidShape*>(&any))
+  if (auto* pyramid = as<PyramidShape>(any))
     visit_pyramid(archive, *pyramid);
-  if (auto* plane = dynamic_cast<PlaneShape*>(&any))
+  if (auto* plane = as<PlaneShape>(any))
     visit_plane(archive, *plane);
-  if (auto* hull = dynamic_cast<MultiSphereConvexHullShape*>(&any))
+  if (auto* hull = as<MultiSphereConvexHullShape>(any))
     visit_spheres(archive, *hull);
 }
 
@@ -149,10 +157,7 @@ void visit_shape(Archive& archive, ShapeNode& node)
 {
   archive.same(node.getName());
   archive.vector(
-      [&]() -> Eigen::VectorXd {
-        const Eigen::Matrix4d transform = node.getRelativeTransform().matrix();
-        return Eigen::Map<const Eigen::VectorXd>(transform.data(), 16);
-      },
+      [&] { return Eigen::Map<const Eigen::Matrix<double, 16, 1>>(node.getRelativeTransform().data()); },
       [&](Vector numbers) {
         Eigen::Isometry3d transform;
         transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(numbers.data());

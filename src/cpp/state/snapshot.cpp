@@ -186,9 +186,10 @@ void forget_history(WorldRecord& record)
 {
   auto& solver = *record.world->getConstraintSolver();
   solver.clearLastCollisionResult(); // it points to objects of the old detector
-  if (std::exchange(record.shapes_changed, false))
+  const bool shapes_changed = std::exchange(record.shapes_changed, false);
+  if (shapes_changed)
     use_detector(solver, solver.getCollisionDetector());
-  renew_detector(solver);
+  renew_detector(solver, shapes_changed);
   for (auto& constraint : record.constraints)
     renew(constraint, solver);
 }

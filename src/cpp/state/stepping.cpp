@@ -205,28 +205,49 @@ double reach(const dart::dynamics::ShapeNode& node, bool ode)
   return far;
 }
 
+double shapes_reach(const Skeleton& skeleton, bool ode)
+{
+  double most = 0.0;
+  for (const auto* body : skeleton.getBodyNodes())
+    for (const auto* node : body->getShapeNodes())
+      if (const double far = reach(*node, ode); !(far <= most))
+        most = far;
+  return most;
+}
+
 /// Collision detection needs differences of coordinates: contacts of bodies that are too far out have normals that are
 /// not numbers. ODE ends the process where a coordinate in cells of its hash space, 1/8 m and larger, is no 32-bit integer.
-void check_range(const WorldRecord& record, bool ode, double time)
+void check_range(const BodyNode& body, double far, bool ode, double time)
 {
   const double limit = ode ? 1e8 : 1e12;
-  const auto check = [&](double far, const std::string& what, const BodyNode& body) {
-    if (!(far <= limit))
+  const auto check = [&](double distance, const std::string& what) {
+    if (!(distance <= limit))
       throw BlowUp(
           "the simulation left the range of the collision detector at t = " + text(time) + " s: " + what + " '"
-          + body.getName() + "' of skeleton '" + body.getSkeleton()->getName() + "' is " + text(far)
+          + body.getName() + "' of skeleton '" + body.getSkeleton()->getName() + "' is " + text(distance)
           + " m from the origin along an axis, the range is " + text(limit) + " m");
   };
+  check(far, "body");
+  for (const auto* node : body.getShapeNodes())
+    check(far + reach(*node, ode), "a shape of body");
+}
+
+void check_range(const WorldRecord& record, bool ode, double time)
+{
+  constexpr double surely_within = 1e7; // of each detector's range
+  const auto check = [&](const BodyNode& body, const Eigen::Isometry3d& pose, double shapes) {
+    const double far = pose.translation().cwiseAbs().maxCoeff();
+    if (!(far + shapes <= surely_within))
+      check_range(body, far, ode, time);
+  };
   for (std::size_t i = 0; i < record.plan.free.size(); ++i)
-    if (const auto& body = record.plan.free[i]; !(body.pose.translation().cwiseAbs().maxCoeff() + body.reach <= limit))
-      check(body.pose.translation().cwiseAbs().maxCoeff() + body.reach, "a shape of body", *body.node);
-  for (const auto& item : record.plan.others)
-    for (const auto* body : item->skeleton->getBodyNodes()) {
-      const double far = body->getWorldTransform().translation().cwiseAbs().maxCoeff();
-      check(far, "body", *body);
-      for (std::size_t i = 0; i < body->getNumShapeNodes(); ++i)
-        check(far + reach(*body->getShapeNode(i), ode), "a shape of body", *body);
-    }
+    check(*record.plan.free[i].node, record.plan.free[i].pose, record.plan.free[i].reach);
+  for (const auto& item : record.plan.others) {
+    if (ode || !item->shapes_reach)
+      item->shapes_reach = shapes_reach(*item->skeleton, ode);
+    for (const auto* body : item->skeleton->getBodyNodes())
+      check(*body, body->getWorldTransform(), *item->shapes_reach);
+  }
 }
 
 } // namespace

@@ -106,6 +106,7 @@ void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::st
   skeleton->setName(free_name(skeleton->getName()));
   world->addSkeleton(skeleton);
   skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{skeleton, source, false, source.empty()}));
+  ++changes;
   plan.note_change();
   if (sleep.enabled) {
     sleep.awake.push_back(skeletons.back());
@@ -115,6 +116,8 @@ void WorldRecord::add(const dart::dynamics::SkeletonPtr& skeleton, const std::st
 
 void WorldRecord::about_to_change(SkeletonRecord& skeleton)
 {
+  ++changes;
+  skeleton.shapes_reach.reset();
   plan.note_change(skeleton);
   if (sleep.enabled)
     wake(*this, skeleton);
@@ -135,6 +138,8 @@ std::string WorldRecord::free_name(const std::string& name)
 void WorldRecord::tree_changed(SkeletonRecord& skeleton)
 {
   ++skeleton.structure;
+  ++changes;
+  skeleton.shapes_reach.reset();
   plan.note_change();
   skeleton.limits_checked = false;
   if (skeleton.recorded)

@@ -41,6 +41,9 @@ struct SkeletonRecord
   int index_in_source = -1;   ///< Where it was in the world that it came with.
   std::vector<RootChange> root_changes = {};
 
+  /// m: no shape is farther from its body's origin. Unknown since the skeleton may have changed.
+  std::optional<double> shapes_reach;
+
   bool limits_checked = false; ///< Since the last change of a limit or of what acts on it (state/limits.hpp).
 
   /// A dof and where it is far beyond limits that do not act, until one was.
@@ -113,6 +116,19 @@ struct Sleep
   bool contacts_found = false;   ///< Also those of the sleepers, by the last collision detection.
 };
 
+/// The digest of a model, and the model that it is of (state/model_archive.hpp).
+struct KnownModel
+{
+  struct Part
+  {
+    std::vector<std::string> texts;
+    std::vector<double> numbers;
+  };
+  Part all, around; ///< Around the skeletons: of the world itself.
+  long changes = -1;
+  std::string digest;
+};
+
 /// A world and what belongs to it, shared by all handles into it.
 struct WorldRecord
 {
@@ -174,6 +190,8 @@ struct WorldRecord
   engine::BitsOfBodies collision_bits;
   std::atomic<State> state{State::ready};
   long frame = 0; ///< Steps since the last reset.
+  long changes = 0; ///< How often a skeleton may have changed, its state or its model.
+  KnownModel known_model;
   int layout = 0; ///< Changes when skeletons are removed or get another tree, so that an earlier frame no longer fits.
   bool shapes_changed = false; ///< Since the detector got them, which then has them in another order than a clone's.
   Dynamics dynamics = default_dynamics();
