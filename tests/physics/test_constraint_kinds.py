@@ -219,6 +219,18 @@ def test_a_four_bar_stays_closed(solver: str) -> None:
     assert fastest > 5.0
 
 
+def test_a_four_bar_keeps_its_energy() -> None:
+    """By rk4 it stays closed to rounding and keeps its energy, of which up to 4 J are of motion."""
+    world, bars, hinge = four_bar("fast")
+    world.set_integrator("rk4")
+    begin = bars.kinetic_energy() + bars.potential_energy()
+    for _ in range(30):
+        world.step(100)
+        assert np.linalg.norm(bars.body("rocker").to_world([0.5, 0.0, 0.0]) - hinge.point) < 1e-12
+        assert abs(bars.kinetic_energy() + bars.potential_energy() - begin) < 1e-6
+    assert bars.integrator_fallbacks == 0
+
+
 @pytest.mark.parametrize("solver", ["dart", "fast", "iterative"])
 def test_a_weld_to_a_moving_hand(solver: str) -> None:
     """5 kg in the hand of an arm that swings under its own weight."""

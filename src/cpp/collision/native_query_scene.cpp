@@ -53,21 +53,10 @@ int QueryScene::cast(const Ray& ray, RayHit& hit) const
   int which = -1;
   for (const int index : unbounded_)
     cast_at(index, ray, hit, which);
-  // The nearest first: what lies behind a hit is not looked at.
-  thread_local std::vector<std::pair<double, int>> kept;
-  auto& near = kept; // finding it costs as much as a box
-  near.clear();
-  const Vector inverse = ray.direction.cwiseInverse();
-  double at = 0.0;
+  const BoxRay box_ray(ray);
   tree_.along(
-      [&](const Bounds& box) { return (at = entry(ray, inverse, box)) <= hit.distance; },
-      [&](int index) { near.emplace_back(at, index); });
-  std::sort(near.begin(), near.end());
-  for (const auto& [distance, index] : near) {
-    if (distance > hit.distance)
-      break;
-    cast_at(index, ray, hit, which);
-  }
+      [&](const Bounds& box) { return box_ray.entry(box); }, hit.distance,
+      [&](int index) { cast_at(index, ray, hit, which); });
   return which;
 }
 

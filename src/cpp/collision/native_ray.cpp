@@ -52,12 +52,23 @@ bool cast_plane(const Ray& ray, const Geometry& plane, RayHit& hit)
 
 bool cast_box(const Ray& ray, const Vector& half, RayHit& hit)
 {
-  Inside inside;
+  double from = -never, to = never;
+  int entered = 0;
   for (int i = 0; i < 3; ++i) {
-    inside.clip(ray, Vector::Unit(i), half[i]);
-    inside.clip(ray, -Vector::Unit(i), half[i]);
+    const double o = ray.origin[i], d = ray.direction[i], ahead = std::copysign(half[i], d);
+    if (d == 0.0) {
+      if (std::abs(o) > half[i])
+        return false;
+      continue;
+    }
+    if (const double enters = (-ahead - o) / d; enters > from) {
+      from = enters;
+      entered = i;
+    }
+    to = std::min(to, (ahead - o) / d);
   }
-  return inside.hit(hit);
+  return from <= to && from >= 0.0 && from < hit.distance
+         && sooner(from, std::copysign(1.0, -ray.direction[entered]) * Vector::Unit(entered), hit);
 }
 
 bool cast_hull(const Ray& ray, const Hull& hull, RayHit& hit)
@@ -182,15 +193,13 @@ bool cast_triangle(const Ray& ray, const std::array<Vector, 3>& at, const Vector
 bool cast_mesh(const Ray& ray, const TriangleMesh& mesh, RayHit& hit)
 {
   bool any = false;
-  const Vector inverse = ray.direction.cwiseInverse();
-  mesh.tree.along(
-      [&](const Bounds& box) { return entry(ray, inverse, box) <= hit.distance; },
-      [&](int index) {
-        const auto i = static_cast<std::size_t>(index);
-        const auto& corners = mesh.triangles[i];
-        const auto corner = [&](std::size_t k) -> const Vector& { return mesh.corners[static_cast<std::size_t>(corners[k])]; };
-        any = cast_triangle(ray, {corner(0), corner(1), corner(2)}, mesh.normals[i], hit) || any;
-      });
+  const BoxRay box_ray(ray);
+  mesh.tree.along([&](const Bounds& box) { return box_ray.entry(box); }, hit.distance, [&](int index) {
+    const auto i = static_cast<std::size_t>(index);
+    const auto& corners = mesh.triangles[i];
+    const auto corner = [&](std::size_t k) -> const Vector& { return mesh.corners[static_cast<std::size_t>(corners[k])]; };
+    any = cast_triangle(ray, {corner(0), corner(1), corner(2)}, mesh.normals[i], hit) || any;
+  });
   return any;
 }
 

@@ -26,22 +26,31 @@ struct RayHit
 /// that begins inside passes out of them. The triangles of a mesh are hit from both sides.
 bool cast(const Ray& ray, const Geometry& shape, RayHit& hit);
 
-/// Where a ray enters a box, 0 for one that begins inside; infinity if it misses it.
-inline double entry(const Ray& ray, const Vector& inverse_direction, const Bounds& box)
+/// A ray as it meets boxes.
+class BoxRay
 {
-  constexpr double never = std::numeric_limits<double>::infinity();
-  double from = 0.0, to = never;
-  for (int i = 0; i < 3; ++i) {
-    if (ray.direction[i] == 0.0) {
-      if (ray.origin[i] < box.low[i] || ray.origin[i] > box.high[i])
-        return never;
-      continue;
-    }
-    const double low = (box.low[i] - ray.origin[i]) * inverse_direction[i], high = (box.high[i] - ray.origin[i]) * inverse_direction[i];
-    from = std::max(from, std::min(low, high));
-    to = std::min(to, std::max(low, high));
+public:
+  explicit BoxRay(const Ray& ray)
+    : origin_(ray.origin), inverse_(ray.direction.cwiseInverse().cwiseMax(-largest).cwiseMin(largest))
+  {
   }
-  return from <= to * (1.0 + 1e-12) ? from : never; // a flat box is one too
-}
+
+  /// Where it enters a box, 0 for one that begins inside; infinity if it misses it.
+  double entry(const Bounds& box) const
+  {
+    double from = 0.0, to = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const double low = (box.low[i] - origin_[i]) * inverse_[i], high = (box.high[i] - origin_[i]) * inverse_[i];
+      from = std::max(from, std::min(low, high));
+      to = std::min(to, std::max(low, high));
+    }
+    return from <= to * (1.0 + 1e-12) ? from : std::numeric_limits<double>::infinity(); // a flat box is one too
+  }
+
+private:
+  static constexpr double largest = 1e200; ///< Along an axis that the ray does not move on; finite, so that 0 times it is 0.
+
+  Vector origin_, inverse_;
+};
 
 } // namespace pydart2::native

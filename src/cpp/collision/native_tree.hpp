@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -44,25 +45,36 @@ public:
     }
   }
 
-  /// Calls `use` with each leaf of whose box, and of all boxes around it, `enters` is true.
-  template <class Enters, class Use>
-  void along(const Enters& enters, const Use& use) const
+  /// Calls `use` with each leaf whose box, and all boxes around it, a ray enters before `most`, which `use` may lower;
+  /// the nearer half of a box first. `entry` gives the distance of a box, infinity for one that is missed.
+  template <class Entry, class Use>
+  void along(const Entry& entry, const double& most, const Use& use) const
   {
+    struct Next
+    {
+      double distance;
+      int index;
+    };
     if (nodes_.empty())
       return;
-    thread_local std::vector<int> kept; // neither asks a tree
-    auto& stack = kept;
-    stack.assign(1, 0);
-    while (!stack.empty()) {
-      const Node& node = nodes_[static_cast<std::size_t>(stack.back())];
-      stack.pop_back();
-      if (!enters(node.bounds))
-        continue;
-      if (node.leaf >= 0) {
+    std::array<Next, static_cast<std::size_t>(deepest) + 1> stack;
+    std::size_t count = 0;
+    Next next{entry(nodes_[0].bounds), 0};
+    const auto pop = [&] { return count > 0 ? stack[--count] : Next{0.0, -1}; };
+    while (next.index >= 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(next.index)];
+      if (!(next.distance < most)) { // also what it misses
+        next = pop();
+      } else if (node.leaf >= 0) {
         use(node.leaf);
+        next = pop();
       } else {
-        stack.push_back(node.right);
-        stack.push_back(node.left);
+        Next far{entry(nodes_[static_cast<std::size_t>(node.right)].bounds), node.right};
+        next = {entry(nodes_[static_cast<std::size_t>(node.left)].bounds), node.left};
+        if (far.distance < next.distance)
+          std::swap(next, far);
+        if (far.distance < most)
+          stack[count++] = far;
       }
     }
   }
@@ -99,7 +111,11 @@ private:
     int parent, left, right, leaf; ///< -1: none.
   };
 
-  int build(const std::vector<Bounds>& boxes, std::vector<int>::iterator begin, std::vector<int>::iterator end, int parent);
+  static constexpr int deepest = 64;
+
+  int build(
+      const std::vector<Bounds>& boxes, std::vector<int>::iterator begin, std::vector<int>::iterator end, int parent,
+      int depth);
 
   std::vector<Node> nodes_;
   std::vector<int> leaf_of_; ///< The node of each leaf.

@@ -1,5 +1,6 @@
 #include "dynamics/integrator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
@@ -113,10 +114,20 @@ void SkeletonIntegrator::keep_prediction()
 
 bool SkeletonIntegrator::moves_freely() const
 {
-  for (const auto& link : tree_.links)
-    if (link.num_dofs > 0 && link.joint->isKinematic())
-      return false;
-  return skeleton_.getVelocities() == predicted_;
+  return !has_prescribed_motion() && skeleton_.getVelocities() == predicted_;
+}
+
+bool SkeletonIntegrator::joints_are_free() const
+{
+  return !has_prescribed_motion()
+         && (each_dof(skeleton_, [](const Dof& dof) { return dof.getConstraintImpulse(); }).array() == 0.0).all();
+}
+
+bool SkeletonIntegrator::has_prescribed_motion() const
+{
+  return std::any_of(tree_.links.begin(), tree_.links.end(), [](const auto& link) {
+    return link.num_dofs > 0 && link.joint->isKinematic();
+  });
 }
 
 VectorXd SkeletonIntegrator::actuator_forces() const
@@ -153,7 +164,8 @@ void SkeletonIntegrator::go_back(double h, const VectorXd& dq)
   set_velocities(dq, h);
 }
 
-SkeletonIntegrator::Rates SkeletonIntegrator::rates(const Armature& armature, const VectorXd& r, const VectorXd& dq)
+/// Of the dofs, without what M dq' is, where r leads.
+VectorXd SkeletonIntegrator::forces_at(const VectorXd& r, const VectorXd& dq)
 {
   move(r);
   skeleton_.setVelocities(dq);
@@ -162,24 +174,19 @@ SkeletonIntegrator::Rates SkeletonIntegrator::rates(const Armature& armature, co
     return -dof.getDampingCoefficient() * dof.getVelocity()
            - dof.getSpringStiffness() * (dof.getPosition() - dof.getRestPosition());
   });
-  Rates rates{dq, mass(armature).llt().solve(f)};
-  each_rotation(tree_, [&](long first, bool free) {
-    const Vector3d turn = r.segment<3>(first);
-    rates.r.segment<3>(first) = rotation_rate(turn, dq.segment<3>(first));
-    if (free)
-      rates.r.segment<3>(first + 3) = turned_by(turn) * dq.segment<3>(first + 3);
-  });
-  return rates;
+  return f;
 }
 
-void SkeletonIntegrator::step_rk4(const Armature& armature, double h)
+VectorXd SkeletonIntegrator::rate_of(const VectorXd& r, const VectorXd& dq) const
 {
-  const Rates k1 = rates(armature, VectorXd::Zero(q0_.size()), dq0_);
-  const Rates k2 = rates(armature, 0.5 * h * k1.r, dq0_ + 0.5 * h * k1.dq);
-  const Rates k3 = rates(armature, 0.5 * h * k2.r, dq0_ + 0.5 * h * k2.dq);
-  const Rates k4 = rates(armature, h * k3.r, dq0_ + h * k3.dq);
-  move(h / 6.0 * (k1.r + 2.0 * k2.r + 2.0 * k3.r + k4.r));
-  set_velocities(dq0_ + h / 6.0 * (k1.dq + 2.0 * k2.dq + 2.0 * k3.dq + k4.dq), h);
+  VectorXd rate = dq;
+  each_rotation(tree_, [&](long first, bool free) {
+    const Vector3d turn = r.segment<3>(first);
+    rate.segment<3>(first) = rotation_rate(turn, dq.segment<3>(first));
+    if (free)
+      rate.segment<3>(first + 3) = turned_by(turn) * dq.segment<3>(first + 3);
+  });
+  return rate;
 }
 
 } // namespace pydart2

@@ -42,20 +42,30 @@ public:
   void keep_prediction();
   bool moves_freely() const;
 
-  /// The classical Runge-Kutta method of fourth order in r (Munthe-Kaas, BIT 38, 1998).
-  void step_rk4(const Armature& armature, double h);
+  /// Whether no joint's motion is prescribed, and no limit or friction of one has acted.
+  bool joints_are_free() const;
 
   /// Lee, Liu, Park, Srinivasa, "A Linear-Time Variational Integrator for Multibody Systems", WAFR 2016, with momenta for
   /// the state and a dense mass matrix for the quasi-Newton steps. False if
   /// these do not converge, the step being too long; then the state is that of the prediction.
   bool step_variational(const Armature& armature, double h);
 
-private:
+  /// For HeldMotion: how r and dq change, where r leads, and what acts there.
   struct Rates
   {
     Eigen::VectorXd r, dq;
   };
 
+  Eigen::VectorXd velocities() const { return skeleton_.getVelocities(); }
+  Eigen::VectorXd velocities_before() const { return dq0_; }
+  Eigen::VectorXd forces_at(const Eigen::VectorXd& r, const Eigen::VectorXd& dq);
+  Eigen::VectorXd rate_of(const Eigen::VectorXd& r, const Eigen::VectorXd& dq) const;
+  Eigen::MatrixXd mass(const Armature& armature);
+  void move(const Eigen::VectorXd& r);
+  void count_from_here() { q0_ = skeleton_.getPositions(); }
+  void set_velocities(const Eigen::VectorXd& dq, double h);
+
+private:
   /// The poses of all links and what takes wrenches on them to the dofs.
   struct Place
   {
@@ -64,11 +74,8 @@ private:
   };
   using Places = std::vector<Place>;
 
-  Eigen::MatrixXd mass(const Armature& armature);
+  bool has_prescribed_motion() const;
   Eigen::VectorXd actuator_forces() const;
-  Rates rates(const Armature& armature, const Eigen::VectorXd& r, const Eigen::VectorXd& dq);
-  void move(const Eigen::VectorXd& r);
-  void set_velocities(const Eigen::VectorXd& dq, double h);
   void go_back(double h, const Eigen::VectorXd& dq);
 
   Places places() const;

@@ -29,10 +29,10 @@ ConstraintBasePtr weld(const ConstraintRecord& record)
   return std::make_shared<WeldJointConstraint>(record.body1, record.body2);
 }
 
-/// The two balls of a revolute joint are a span of 0.2 m apart.
+constexpr double half_span = 0.1; ///< m, between the two balls of a revolute joint.
+
 std::vector<ConstraintBasePtr> make(const ConstraintRecord& record)
 {
-  constexpr double half_span = 0.1;
   switch (record.kind) {
   case ConstraintRecord::Kind::ball:
     return {ball(record, record.point)};
@@ -45,6 +45,37 @@ std::vector<ConstraintBasePtr> make(const ConstraintRecord& record)
         record.body1, record.body2, record.point, record.point2, record.length, record.rope)};
   }
   return {};
+}
+
+/// Points of the first body, in the world, that a joint holds: the more, the fewer motions it leaves.
+std::vector<Eigen::Vector3d> held_points(const ConstraintRecord& record)
+{
+  const Eigen::Isometry3d& body = record.body1->getWorldTransform();
+  switch (record.kind) {
+  case ConstraintRecord::Kind::weld:
+    return {body.translation(), body * (half_span * Eigen::Vector3d::UnitX()), body * (half_span * Eigen::Vector3d::UnitY())};
+  case ConstraintRecord::Kind::revolute:
+    return {record.point - half_span * record.axis, record.point + half_span * record.axis};
+  case ConstraintRecord::Kind::ball:
+  case ConstraintRecord::Kind::distance:
+    break;
+  }
+  return {record.point};
+}
+
+std::vector<Tie> ties_of(const ConstraintRecord& record)
+{
+  const auto in = [](const dart::dynamics::BodyNode* body, const Eigen::Vector3d& point) -> Eigen::Vector3d {
+    return body == nullptr ? point : body->getWorldTransform().inverse() * point;
+  };
+  const bool distance = record.kind == ConstraintRecord::Kind::distance;
+  std::vector<Tie> ties;
+  if (record.rope)
+    return ties;
+  for (const auto& point : held_points(record))
+    ties.push_back({record.body1, record.body2, in(record.body1, point), in(record.body2, distance ? record.point2 : point),
+                    record.length});
+  return ties;
 }
 
 Eigen::VectorXd positions(const dart::dynamics::SkeletonPtr& skeleton)
@@ -68,6 +99,7 @@ void add(ConstraintRecord& record, ConstraintSolver& solver)
   record.positions1 = positions(record.skeleton1);
   record.positions2 = positions(record.skeleton2);
   record.parts = make(record);
+  record.ties = ties_of(record);
   if (record.target)
     set_target(record, *record.target);
   if (record.enabled)
@@ -96,6 +128,9 @@ void enable(ConstraintRecord& record, ConstraintSolver& solver, bool on)
 void set_target(ConstraintRecord& record, const Eigen::Isometry3d& target)
 {
   record.target = target;
+  const bool weld = record.kind == ConstraintRecord::Kind::weld;
+  for (auto& tie : record.ties)
+    tie.point2 = weld ? Eigen::Vector3d(target * tie.point1) : Eigen::Vector3d(target.translation());
   for (const auto& part : record.parts)
     engine::set_target(*part, target);
 }

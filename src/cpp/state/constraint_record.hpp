@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/held_motion.hpp"
+
 namespace pydart2 {
 
 /// A joint that a user added between two bodies, or between one and the world (body2 is null), with the skeletons that it
@@ -27,6 +29,7 @@ struct ConstraintRecord
   Eigen::VectorXd positions1, positions2; ///< Positions of the skeletons when it was made.
   dart::dynamics::SkeletonPtr skeleton1, skeleton2;
   std::vector<dart::constraint::ConstraintBasePtr> parts; ///< A revolute joint is two ball joints on its axis.
+  std::vector<Tie> ties;                                  ///< The same as points that coincide; a rope has none.
 };
 
 /// Makes the joint of a record that has its kind, bodies and point, as the bodies stand now, and adds it.

@@ -20,6 +20,7 @@
 #include "dynamics/tree_dynamics.hpp"
 #include "dynamics/weightless.hpp"
 #include "state/dof_state.hpp"
+#include "state/held_groups.hpp"
 #include "state/limits.hpp"
 #include "state/sleeping.hpp"
 #include "state/snapshot.hpp"
@@ -432,7 +433,7 @@ bool move_freely(const WorldRecord& record, SkeletonRecord& item, double dt)
     if (record.integrator == Integrator::variational && item.integrator().step_variational(item.armature, dt))
       return true;
     if (record.integrator == Integrator::rk4) {
-      item.integrator().step_rk4(item.armature, dt);
+      HeldMotion({{item.skeleton.get(), &item.integrator(), &item.armature}}, {}).step_rk4(dt);
       return true;
     }
   }
@@ -493,13 +494,14 @@ void phases(WorldRecord& record)
     iterative.move_free_bodies(dt);
     iterative.add_corrections();
   }
+  const auto held = move_held_groups(record, dt);
   plan.free.integrate(dt);
   check_free(record, end);
   for (const auto& item : plan.others) {
     auto& skeleton = *item->skeleton;
     if (!skeleton.isMobile())
       continue;
-    if (move_freely(record, *item, dt))
+    if (held.count(&skeleton) != 0 || move_freely(record, *item, dt))
       item->watch->check_velocities(end);
     else if (item->mover != nullptr)
       item->mover->integrate_positions(dt);
