@@ -1,6 +1,7 @@
 #include "collision/detector.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "collision/engine_detectors.hpp"
@@ -59,32 +60,44 @@ void replace_detector(ConstraintSolver& solver)
     auto& mine = dynamic_cast<FclDetector&>(*detector);
     mine.setPrimitiveShapeType(fcl->getPrimitiveShapeType());
     mine.setContactPointComputationMethod(fcl->getContactPointComputationMethod());
+    if (const auto* ours = dynamic_cast<const FclDetector*>(fcl.get()))
+      mine.soft_at_rest = ours->soft_at_rest;
   }
   use_detector(solver, detector);
 }
 
+namespace {
+
+void renew_fcl(ConstraintSolver& solver, bool shapes_changed)
+{
+  const auto& skeletons = solver.getSkeletons();
+  const bool soft = std::any_of(
+      skeletons.begin(), skeletons.end(), [](const auto& skeleton) { return skeleton->getNumSoftBodyNodes() > 0; });
+  if (soft && !std::exchange(dynamic_cast<FclDetector&>(*solver.getCollisionDetector()).soft_at_rest, true))
+    replace_detector(solver);
+  const auto group = solver.getCollisionGroup(); // keeps the meshes' trees, which are dear to make
+  if (soft || shapes_changed) {
+    // The new tree depends on where the objects are when they are added; a soft one keeps its last two meshes.
+    for (int i = 0; i < 2; ++i)
+      group->collide(CollisionOption(false, 1));
+    return use_detector(solver, solver.getCollisionDetector());
+  }
+  group->update();
+  GroupMembers::put_in_again(*group);
+}
+
+} // namespace
+
 void renew_detector(ConstraintSolver& solver, bool shapes_changed)
 {
   const auto detector = solver.getCollisionDetector();
-  const auto group = solver.getCollisionGroup(); // keeps the meshes' trees, which are dear to make
+  const auto group = solver.getCollisionGroup();
   if (detector->getType() == "bullet")
     use_detector(solver, detector->cloneWithoutCollisionObjects());
   if (detector->getType() == "dart" || detector->getType() == "ode")
     use_detector(solver, detector); // their pairs are in the order in which the shapes came
-  if (detector->getType() != "fcl")
-    return;
-  // The new tree depends on where the objects are when they are added; a soft one keeps its last two meshes.
-  const auto& skeletons = solver.getSkeletons();
-  const bool soft = std::any_of(
-      skeletons.begin(), skeletons.end(), [](const auto& skeleton) { return skeleton->getNumSoftBodyNodes() > 0; });
-  if (soft || shapes_changed) {
-    for (int i = 0; i < 2; ++i)
-      group->collide(CollisionOption(false, 1));
-    use_detector(solver, detector);
-    return;
-  }
-  group->update();
-  GroupMembers::put_in_again(*group);
+  if (detector->getType() == "fcl")
+    renew_fcl(solver, shapes_changed);
 }
 
 ShapeChoice& shape_choice(ConstraintSolver& solver)

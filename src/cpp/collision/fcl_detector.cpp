@@ -6,8 +6,8 @@
 #include <dart/dynamics/CylinderShape.hpp>
 #include <dart/dynamics/EllipsoidShape.hpp>
 #include <dart/dynamics/MeshShape.hpp>
-#include <dart/dynamics/PyramidShape.hpp>
 #include <dart/dynamics/PointMass.hpp>
+#include <dart/dynamics/PyramidShape.hpp>
 #include <dart/dynamics/ShapeFrame.hpp>
 #include <dart/dynamics/SoftBodyNode.hpp>
 #include <dart/dynamics/SoftMeshShape.hpp>
@@ -121,8 +121,8 @@ std::shared_ptr<const Tree> make_tree(const ConstShapePtr& shape)
   return {made, static_cast<const Tree*>(made->geometry.get())};
 }
 
-/// A tree over the points at rest, as the engine makes it when the body is new. Each step moves its triangles and fits its
-/// nodes, but which triangle is in which node stays: it must not depend on when the tree was made.
+/// A tree over the points at rest. Each step moves its triangles and fits its nodes, but which triangle is in which node
+/// stays: it does not depend on when the tree was made.
 std::shared_ptr<Tree> make_soft(const SoftBodyNode& body)
 {
   auto tree = std::make_shared<Tree>();
@@ -265,7 +265,7 @@ std::shared_ptr<Geometry> FclDetector::geometry(const ConstShapePtr& shape)
   static Forest forest;
   if (const auto [recipe, model] = recipe_of(*shape, getPrimitiveShapeType()); model)
     return std::make_shared<BorrowedTree>(forest.tree(recipe, model));
-  if (const auto* soft = dynamic_cast<const SoftMeshShape*>(shape.get()))
+  if (const auto* soft = soft_at_rest ? dynamic_cast<const SoftMeshShape*>(shape.get()) : nullptr)
     return make_soft(*soft->getSoftBodyNode());
   return claimFCLCollisionGeometry(shape);
 }

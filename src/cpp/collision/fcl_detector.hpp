@@ -17,6 +17,10 @@ public:
 
   std::shared_ptr<dart::collision::CollisionDetector> cloneWithoutCollisionObjects() const override;
 
+  /// Whether the trees of soft bodies are made of their points at rest and not, as by the engine, where they are then: a
+  /// copy and what it was copied from need the same trees from there on.
+  bool soft_at_rest = false;
+
 protected:
   std::unique_ptr<dart::collision::CollisionObject> createCollisionObject(
       const dart::dynamics::ShapeFrame* frame) override;
