@@ -14,4 +14,4 @@ from gui.test_environments import ROOT, run
 def test_random_events_do_no_harm(model: str) -> None:
     result = run(sys.executable, str(ROOT / "tests/gui/random_events.py"), "4", model, QT_QPA_PLATFORM="offscreen")
     assert result.returncode == 0, f"code {result.returncode}\n{result.stdout[-1000:]}\n{result.stderr[-6000:]}"
-    assert f"{model}: 48 kinds, 192 events" in result.stdout
+    assert f"{model}: 49 kinds, 196 events" in result.stdout

@@ -454,6 +454,7 @@ def test_the_camera_follows_a_body(make_window: MakeWindow, cubes: pydart2.World
 
 
 def test_every_toggle_changes_the_picture(make_window: MakeWindow, cubes: pydart2.World) -> None:
+    cubes.set_sleeping()
     cubes.step(1500)
     window = make_window(cubes)
     window.commands.frame_all()
