@@ -11,14 +11,11 @@ stand.
 
 from __future__ import annotations
 
-import logging
 import statistics
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -26,13 +23,8 @@ from harness import table
 
 import pydart2
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-
-from physics.models import add_ragdoll
-
 SIDE = 0.2  # m, of a box
 PIECES = 9
-RAGDOLLS = "10 ragdolls"
 
 
 @dataclass(frozen=True)
@@ -114,50 +106,6 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "3 × 1000 shapes": lambda: shapes(1000),
     "3 × 1000 shapes, asleep": lambda: shapes(1000, sleep=True),
 }
-
-
-class Ragdolls:
-    """Ten of them poured on each other, for 3 s, in both."""
-
-    def __init__(self, count: int = 10, dt: float = 0.001) -> None:
-        self.world = pydart2.World(dt, up="z")
-        self.world.set_recording(False)
-        self.world.add_box((40.0, 40.0, 1.0), None, (0.0, 0.0, -0.5), fixed=True, name="ground")
-        for i in range(count):
-            add_ragdoll(self.world, f"doll {i}", 1.2 + 0.8 * i, float(np.sin(7.0 * i)))
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "dolls.xml"
-            logging.disable()  # it tells of each name that it has to change
-            self.world.save(path)
-            logging.disable(logging.NOTSET)
-            self.model = mujoco.MjModel.from_xml_path(str(path))
-        for geom, body in enumerate(self.model.geom_bodyid):  # no doll touches itself
-            doll = 1 << (self.model.body_rootid[body] % 31)
-            self.model.geom_contype[geom], self.model.geom_conaffinity[geom] = doll, 0x7FFFFFFF & ~doll
-        self.model.opt.timestep = dt
-        self.data = mujoco.MjData(self.model)
-        self.world.set_collision_detector("native")
-        self.world.set_constraint_solver("iterative")
-
-    def measure(self, pieces: int = 30, steps: int = 100) -> list[object]:
-        """A line like measure()'s, with the lowest centres in the place of sags."""
-        times: list[list[float]] = [[], []]
-        for _ in range(pieces):
-            for which, step in enumerate((self.world.step, lambda n: mujoco.mj_step(self.model, self.data, n))):
-                begin = time.perf_counter()
-                step(steps)
-                times[which].append((time.perf_counter() - begin) / steps)
-        mine, other = (sum(part) / pieces for part in times)
-        lowest = min(body.C[2] for doll in self.world.skeletons[1:] for body in doll.bodynodes)
-        contacts = len(self.world.collision_result.contacts)
-        return [
-            f"{mine * 1e6:.0f}",
-            f"{other * 1e6:.0f}",
-            f"{mine / other:.2f}",
-            f"{contacts} / {self.data.ncon}",
-            f"lowest {1e3 * lowest:.0f} / {1e3 * float(self.data.xipos[1:, 2].min()):.0f}",
-            f"{self.world.solver_residual():.1e}",
-        ]
 
 
 def spins(scene: Scene) -> np.ndarray:
@@ -268,8 +216,8 @@ def measure(scene: Scene) -> list[object]:
 
 def rows(names: list[str]) -> Iterator[list[object]]:
     """A line for each scene."""
-    for name in names or [*SCENES, RAGDOLLS]:
-        yield [name, *(Ragdolls().measure() if name == RAGDOLLS else measure(SCENES[name]()))]
+    for name in names or SCENES:
+        yield [name, *measure(SCENES[name]())]
 
 
 if __name__ == "__main__":
