@@ -287,7 +287,9 @@ def run(calls: int, first: int) -> Report:
     for number, examples in batches(calls, first):
         command = [sys.executable, str(Path(__file__).resolve()), "--work", str(number), str(examples), str(log)]
         with tempfile.TemporaryDirectory() as folder:  # for the files that calls write
-            done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT, cwd=folder)
+            done = subprocess.run(
+                command, capture_output=True, text=True, errors="replace", env=ENVIRONMENT, cwd=folder
+            )
         for line in done.stdout.splitlines():
             if line.startswith("TROUBLE "):
                 report.troubles.append(f"seed {number}: {line[8:]}")
@@ -296,7 +298,7 @@ def run(calls: int, first: int) -> Report:
                 report.accepted, report.refused = report.accepted + accepted, report.refused + refused
         if done.returncode != 0:
             report.troubles.append(
-                f"seed {number}, code {done.returncode}, at {log.read_text()}\n{done.stderr[-1200:]}"
+                f"seed {number}, code {done.returncode}, at {log.read_text(errors='replace')}\n{done.stderr[-1200:]}"
             )
     report.calls = report.accepted + report.refused
     return report

@@ -279,7 +279,7 @@ def run(first: int, count: int) -> tuple[collections.Counter[str], list[str]]:
     number, end = first, first + count
     while number < end:
         command = [sys.executable, __file__, "--work", str(number), str(end - number)]
-        done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT)
+        done = subprocess.run(command, capture_output=True, text=True, errors="replace", env=ENVIRONMENT)
         for line in done.stdout.splitlines():
             number = int(line.split()[0]) + 1
             words = line.split(maxsplit=2)

@@ -207,7 +207,9 @@ def run(seconds: float, first: int) -> tuple[Counter[str], list[str]]:
     for seed in range(first, first + max(1, round(seconds / SECONDS_PER_PROCESS))):
         command = [sys.executable, "-X", "faulthandler", __file__, "--work", str(seed)]
         try:
-            done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT, timeout=120)
+            done = subprocess.run(
+                command, capture_output=True, text=True, errors="replace", env=ENVIRONMENT, timeout=120
+            )
         except subprocess.TimeoutExpired:
             troubles.append(f"seed {seed}: it hangs")
             continue

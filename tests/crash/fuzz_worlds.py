@@ -88,7 +88,7 @@ def run(calls: int, first: int) -> tuple[Counter[str], list[str]]:
     seed = first
     while counts.total() < calls and seed - first <= 2 * calls:
         command = [sys.executable, "-X", "faulthandler", __file__, "--work", str(seed)]
-        done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT)
+        done = subprocess.run(command, capture_output=True, text=True, errors="replace", env=ENVIRONMENT)
         for line in done.stdout.splitlines():
             word, _, rest = line.partition(" ")
             if word == "TROUBLE":
