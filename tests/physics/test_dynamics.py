@@ -21,8 +21,8 @@ NDOFS = 16
 FREE, BALL = slice(0, 6), slice(7, 10)  # places of the joints whose positions are not numbers that add up
 STEP = 1e-5
 
-# The engine's ball and free joints turn by less than 1e-3 rad by a truncated series: at 1e-3 poses jump by 1.6e-10 rad, and
-# below it their rates are wrong by up to 5e-7, which differences of poses show.
+# The engine's ball and free joints turn by less than 1e-3 rad by a truncated series: at 1e-3 poses jump by 1.6e-10 rad,
+# and below it their rates are wrong by up to 5e-7, which differences of poses show.
 coordinates = st.floats(-1.2, 1.2).map(lambda x: x if abs(x) > 2e-3 else 0.0)
 vectors = st.lists(coordinates, min_size=NDOFS, max_size=NDOFS).map(np.array)
 bodies = st.sampled_from(["pelvis", "thigh", "head", "foot", "hand", "tail"])
