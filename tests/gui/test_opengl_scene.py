@@ -40,7 +40,7 @@ def test_cameras_are_added_chosen_and_replaced(capsys: pytest.CaptureFixture[str
     assert mine.viewport == (640, 480)
     scene.set_camera(2)
     assert scene.tb is mine
-    assert capsys.readouterr().out == "set_camera: 2\n"
+    assert capsys.readouterr().out == ""  # the original says the number each time
     other = Trackball()
     assert scene.replace_camera(2, other) is True
     assert scene.tb is other  # the one in use too

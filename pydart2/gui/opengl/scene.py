@@ -142,7 +142,6 @@ class OpenGLScene:
         """Use a camera; IndexError if there is none of that number."""
         if not 0 <= camera_index < len(self.cameras):
             raise IndexError(f"no camera {camera_index}; there are {len(self.cameras)}, counted from 0")
-        print(f"set_camera: {camera_index}")
         self.tb = self.cameras[camera_index]
 
     def _set_up_fixed_pipeline(self) -> None:
