@@ -34,7 +34,8 @@ class Style:
     shadow_size : int
         Pixels of the shadow map along an edge.
     draft : bool
-        Whether the edges of shadows are hard, and those of the picture before, for which OpenGL need not wait.
+        Whether shadows have hard edges, half the pixels, and are those of one or two pictures before, for which
+        OpenGL need not wait.
     wireframe : bool
     background_top, background_bottom : (3,)
     light : (3,)
@@ -88,7 +89,8 @@ class SceneRenderer:
         self._instances, self._commands = (int(name) for name in GL.glGenBuffers(2))
         self._pools = [Pool(self._instances, rich) for rich in (False, True)] + [Pool(self._instances, False)]
         self._textures = Textures()
-        self._shadow: ShadowMap | None = None
+        self._shadow: ShadowMap | None = None  # the one drawn last
+        self._shadows: dict[int, ShadowMap] = {}  # by their size
         self._late: tuple[Matrix, float] | None = None
         self._draws = 0
         self._frame = 0
@@ -137,7 +139,7 @@ class SceneRenderer:
             "view_projection": projection @ view,
             "shadow": _BIAS @ shadow,
             "shadow_push": 1.5 * texel,
-            "shadow_size": 1.0 / self.style.shadow_size,
+            "shadow_size": 1.0 / self._shadow_size,
         }
         for batch in batches:
             self._begin_lit(batch.bucket, texel > 0.0, uniforms)
@@ -151,7 +153,7 @@ class SceneRenderer:
         if self.style.draft:
             GL.glDisable(GL.GL_BLEND)
             GL.glPolygonMode(GL.GL_FRONT_AND_BACK, GL.GL_FILL)
-            self._late = self._draw_shadow(scene, batches, light)
+            self._late = late if late and self._frame % 2 else self._draw_shadow(scene, batches, light)
         _leave()
 
     def draw_bodies(self, scene: Scene, view: Matrix, projection: Matrix) -> None:
@@ -207,12 +209,16 @@ class SceneRenderer:
             "shadow_map": 1,
         }
 
+    @property
+    def _shadow_size(self) -> int:
+        return self.style.shadow_size // 2 if self.style.draft else self.style.shadow_size
+
     def _draw_shadow(self, scene: Scene, batches: list[_Batch], light: NDArray[np.float64]) -> tuple[Matrix, float]:
         casters = [item for item in scene.items if item.casts and item.rgba[3] > 0.5]
         if not self.style.shadows or not casters:
             return np.eye(4), 0.0
-        if self._shadow is None or self._shadow.size != self.style.shadow_size:
-            self._shadow = ShadowMap(self.style.shadow_size)
+        size = self._shadow_size
+        self._shadow = self._shadows[size] = self._shadows.get(size) or ShadowMap(size)
         matrix, texel = self._shadow.fit(casters, light)
         before = self._shadow.begin(matrix)
         for batch in batches:

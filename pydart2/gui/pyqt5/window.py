@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import sys
+import time
 from signal import SIGINT
 from types import FrameType
 from typing import Any, ClassVar
@@ -27,7 +28,7 @@ from pydart2.gui.runtime import Runtime
 from pydart2.simulation.up import up_of
 
 _PICTURE_SIZE = (1280, 720)
-_ACTIVE_MS, _PAUSED_MS = 33, 250  # between two pictures
+_ACTIVE, _PAUSED = 0.036, 0.25  # s from one picture to the next
 _WAIT_MS = 2
 _SLICE = 0.005  # s of simulation before Qt has its turn
 _ROOM = 800  # pixels of the window below which the inspector folds away, so that the picture keeps most of them
@@ -163,6 +164,7 @@ class PyQt5Window(Scripted):
         self.idleTimer = QTimer(self)
         self.idleTimer.setInterval(0)
         self.idleTimer.timeout.connect(self.idleTimerEvent)
+        self._due = time.monotonic()  # the next picture
         self.renderTimer = QTimer(self)
         self.renderTimer.setSingleShot(True)
         self.renderTimer.timeout.connect(self.renderTimerEvent)
@@ -280,10 +282,12 @@ class PyQt5Window(Scripted):
 
     def renderTimerEvent(self) -> None:  # noqa: N802
         """Draw, and show the state in the status bar, the slider and the inspector."""
+        now = time.monotonic()
         self.refresh()
         active = self.runtime.playing or self.runtime.replaying
-        twice = round(2000.0 * min(self.glwidget.paint_seconds, 0.2))  # the simulation gets as much time as pictures
-        self.renderTimer.start(max(_ACTIVE_MS, twice) if active else _PAUSED_MS)
+        least = 1.5 * min(self.glwidget.paint_seconds, 0.2)  # the simulation gets half as much time as pictures
+        self._due = max(self._due + _ACTIVE, now + least) if active else now + _PAUSED  # a late one delays no other
+        self.renderTimer.start(round(1000.0 * (self._due - now)))
 
     def refresh(self) -> None:
         """Show the present state, and draw it soon."""
