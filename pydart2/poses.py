@@ -47,3 +47,21 @@ def between(z_axis: ArrayLike) -> NDArray[np.float64]:
     x = np.cross([0.0, 1.0, 0.0] if abs(z[1]) < 0.9 else [0.0, 0.0, 1.0], z)
     x /= np.linalg.norm(x)
     return np.column_stack([x, np.cross(z, x), z])
+
+
+def looking(eye: ArrayLike, target: ArrayLike, up: ArrayLike) -> NDArray[np.float64]:
+    """How an eye is turned, shape (3, 3), 1, that looks along its -z at a target, with `up` upwards in what it sees.
+
+    `eye`, `target` and `up` are of shape (3,), m. Raises ValueError if the target is at the eye, or straight above or
+    below it.
+    """
+    back = np.asarray(eye, dtype=float) - np.asarray(target, dtype=float)
+    distance = float(np.linalg.norm(back))
+    if not distance > 0.0:
+        raise ValueError("the camera is at what it looks at")
+    back /= distance
+    right = np.cross(np.asarray(up, dtype=float), back)
+    if not np.linalg.norm(right) > 1e-9 * np.linalg.norm(up):
+        raise ValueError("the camera looks along `up`; choose another up")
+    right /= np.linalg.norm(right)
+    return np.column_stack([right, np.cross(back, right), back])

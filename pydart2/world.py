@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from pydart2.bodynode import BodyNode
+    from pydart2.cameras import MountedCamera
     from pydart2.constraints import Constraint
     from pydart2.loading import Missing, Reader, Source
     from pydart2.recording import Recording
@@ -157,6 +158,7 @@ class World(
         for i in range(self._handle.num_skeletons()):
             self.add_skeleton_from_id(i)._z_up = model is not None and is_z_up(model)
         self.keyframes: dict[str, NDArray[np.float64]] = model.keyframes if model is not None else {}
+        self._cameras.update(model.cameras(self, still=True) if model is not None else {})
         self.reset()
         self.enable_recording()
 
@@ -166,6 +168,7 @@ class World(
         self.control_skel: Skeleton | None = None
         self.recording: Recording | None = None
         self.skeletons: list[Skeleton] = []
+        self._cameras: dict[str, MountedCamera] = {}
         self._controlled: list[tuple[Skeleton, Callable[[], ArrayLike]]] = []
         self.collision_result = CollisionResult(self)
         self.collision_filter = CollisionFilter(self)

@@ -15,6 +15,7 @@ def add(commands: Any) -> None:
     view = commands.add_parser("view", help="show a file in a window")
     add_file(view)
     add_standing(view)
+    _add_camera(view)
     view.set_defaults(run=run_view)
 
     render = commands.add_parser("render", help="make a picture of a file")
@@ -34,7 +35,12 @@ def add(commands: Any) -> None:
 def _add_picture(parser: argparse.ArgumentParser, name: str, kinds: str) -> None:
     parser.add_argument("-o", "--output", type=Path, default=Path(name), metavar="PATH", help=f"{kinds} ({name})")
     parser.add_argument("--size", type=_size, default=(640, 480), metavar="WxH", help="in pixels (640x480)")
-    parser.add_argument("--camera", choices=sorted(VIEWS), default="auto", help="where to look from (auto)")
+    _add_camera(parser)
+
+
+def _add_camera(parser: argparse.ArgumentParser) -> None:
+    known = ", ".join(sorted(VIEWS))
+    parser.add_argument("--camera", default="auto", metavar="NAME", help=f"{known}, or a camera of the file (auto)")
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -48,7 +54,8 @@ def run_view(args: argparse.Namespace) -> None:
     """Open a window until it is closed."""
     from pydart2.gui import viewer
 
-    viewer.launch(open_world(args.file, not args.no_ground, fixed=args.fixed), Path(args.file).name)
+    world = open_world(args.file, not args.no_ground, fixed=args.fixed)
+    viewer.launch(world, Path(args.file).name, args.camera)
 
 
 def run_render(args: argparse.Namespace) -> None:

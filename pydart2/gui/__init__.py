@@ -8,6 +8,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from pydart2.cameras import MountedCamera
 from pydart2.gui.camera import Camera
 from pydart2.gui.trackball import Trackball
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Camera",
     "CameraSensor",
+    "MountedCamera",
     "Movie",
     "OffscreenRenderer",
     "Trackball",

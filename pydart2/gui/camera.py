@@ -8,7 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.cameras import MountedCamera
 from pydart2.gui.trackball import Trackball
+from pydart2.poses import looking
 
 Matrix = NDArray[np.float64]
 
@@ -39,16 +41,9 @@ class Camera:
     @classmethod
     def look_at(cls, eye: ArrayLike, target: ArrayLike, up: ArrayLike, fov: float = np.pi / 4.0) -> Camera:
         """A camera at `eye` that sees `target` in the middle and `up` upwards, each of shape (3,), m."""
-        position = np.asarray(eye, dtype=float)
-        back = position - np.asarray(target, dtype=float)
-        back /= np.linalg.norm(back)
-        right = np.cross(np.asarray(up, dtype=float), back)
-        if not np.linalg.norm(right) > 1e-9 * np.linalg.norm(up):
-            raise ValueError("the camera looks along `up`; choose another up")
-        right /= np.linalg.norm(right)
         view = np.eye(4)
-        view[:3, :3] = right, np.cross(back, right), back
-        view[:3, 3] = -view[:3, :3] @ position
+        view[:3, :3] = looking(eye, target, up).T
+        view[:3, 3] = -view[:3, :3] @ np.asarray(eye, dtype=float)
         return cls(view, fov)
 
     @classmethod
@@ -115,13 +110,15 @@ def default_trackballs() -> list[tuple[str, Trackball]]:
     ]
 
 
-def as_camera(camera: int | Trackball | Camera | tuple[ArrayLike, float]) -> Camera:
-    """The camera that is meant: 0 (Y up), 1 (Z up), a Trackball, a Camera, or (pose of shape (4, 4), vertical field
-    of view in rad); the eye of a pose looks along its -z, with y upwards."""
+def as_camera(camera: int | Trackball | Camera | MountedCamera | tuple[ArrayLike, float]) -> Camera:
+    """The camera that is meant: 0 (Y up), 1 (Z up), a Trackball, a Camera, one of a world, or (pose of shape (4, 4),
+    vertical field of view in rad); the eye of a pose looks along its -z, with y upwards."""
     if isinstance(camera, Camera):
         return camera
+    if isinstance(camera, MountedCamera):
+        return Camera(np.asarray(np.linalg.inv(camera.eye()), dtype=float), camera.fov)
     if isinstance(camera, Trackball):
-        return Camera(camera.view)
+        return Camera(camera.view, camera.fov)
     if isinstance(camera, (int, np.integer)):
         trackballs = default_trackballs()
         if not 0 <= camera < len(trackballs):

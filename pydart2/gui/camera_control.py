@@ -12,9 +12,6 @@ from pydart2.gui.trackball import Trackball
 
 Array = NDArray[np.float64]
 
-#: Vertical field of view of every trackball camera, rad.
-FIELD_OF_VIEW = np.pi / 4.0
-
 _PIXEL = 0.01  # m, what Trackball.zoom_to and trans_to move per pixel
 _NEAREST = 0.05  # m
 
@@ -58,7 +55,7 @@ class CameraControl:
 
     def pixel_size(self, height: int) -> float:
         """What a pixel covers at the pivot's distance in a picture of this height, m."""
-        return float(2.0 * self.distance * np.tan(FIELD_OF_VIEW / 2.0) / max(height, 1))
+        return float(2.0 * self.distance * np.tan(self.trackball.fov / 2.0) / max(height, 1))
 
     # Drags, in pixels of a picture of (width, height), y downwards
 
@@ -93,7 +90,7 @@ class CameraControl:
         self.pivot = (lowest + highest) / 2.0
         half = np.maximum(highest - lowest, _NEAREST) / 2.0
         corners = self.pivot + half * np.array(list(product((-1.0, 1.0), repeat=3)))
-        self.trans = nearest(self.rotation, corners, FIELD_OF_VIEW, aspect)
+        self.trans = nearest(self.rotation, corners, self.trackball.fov, aspect)
 
     def follow(self, point: ArrayLike) -> None:
         """Move the eye by as much as the pivot has moved to get to `point` (3,), m."""
@@ -105,7 +102,7 @@ class CameraControl:
     def ray(self, position: ArrayLike, size: tuple[int, int]) -> tuple[Array, Array]:
         """The eye (3,), m, and where the pixel at `position` (2,) looks, with length 1 along the optical axis (3,)."""
         (x, y), (width, height) = np.asarray(position, dtype=float), size
-        top = np.tan(FIELD_OF_VIEW / 2.0)
+        top = np.tan(self.trackball.fov / 2.0)
         right = (2.0 * x / width - 1.0) * top * width / height
         direction = np.array([right, (1.0 - 2.0 * y / height) * top, -1.0])
         return -self.rotation.T @ self.trans, self.rotation.T @ direction

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pydart2.cameras import MountedCamera
 from pydart2.errors import NameNotFound
 from pydart2.gui.camera import MARGIN, Camera, nearest
-from pydart2.gui.camera_control import FIELD_OF_VIEW
 from pydart2.gui.draw_list import NOBODY, Item, Scene, from_world
 from pydart2.gui.placing import boxes, corners
+from pydart2.gui.trackball import FIELD_OF_VIEW
 from pydart2.simulation.up import Axis, is_z_up
 
 if TYPE_CHECKING:
@@ -70,6 +71,12 @@ def _time_step(model: Any) -> float:
     return float(text) if text else _TIME_STEP
 
 
+def mounted(world: Any, camera: Any) -> MountedCamera | None:
+    """The camera that a world has by this name; None where it has none of it, or it is no name."""
+    cameras: dict[str, MountedCamera] = getattr(world, "_cameras", {})  # not hidden by one of a subclass
+    return cameras.get(camera) if isinstance(camera, str) else None
+
+
 def look(world: Any, aspect: float = 1.0, view: str = "auto", still: bool = False) -> Camera:
     """A camera that sees all of a world but its floors, from one of VIEWS; `aspect` is width / height.
 
@@ -77,7 +84,7 @@ def look(world: Any, aspect: float = 1.0, view: str = "auto", still: bool = Fals
     look by custom, along x. NameNotFound for another view.
     """
     if view not in VIEWS:
-        raise NameNotFound("camera", view, "pydart2.gui", VIEWS)
+        raise NameNotFound("camera", view, "pydart2.gui", [*VIEWS, *getattr(world, "_cameras", ())])
     scene = _scene_of(world)
     low, high = _extent(scene)
     middle, radius = (low + high) / 2.0, max(float(np.linalg.norm(high - low)) / 2.0, _LEAST_RADIUS)

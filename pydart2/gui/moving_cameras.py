@@ -13,7 +13,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from pydart2.gui.camera import Camera, as_camera
-from pydart2.gui.first_look import look, middle_of
+from pydart2.gui.first_look import look, middle_of, mounted
 from pydart2.simulation.up import up_of
 
 if TYPE_CHECKING:
@@ -63,8 +63,7 @@ def between(world: Any, views: Mapping[float, CameraLike]) -> MovingCamera:
     if not views:
         raise ValueError("a camera between views needs one or more")
     times = sorted(views)
-    cameras = [look(world, view=v or "auto") if (v := views[t]) is None or isinstance(v, str) else as_camera(v)
-               for t in times]  # fmt: skip
+    cameras = [_as_it_is(world, views[t]) for t in times]
     poses, middle = [camera.pose for camera in cameras], middle_of(world)
     # What they look at: the points on their axes next to the middle of the world.
     distances = [float((pose[:3, 3] - middle) @ pose[:3, 2]) for pose in poses]
@@ -85,6 +84,12 @@ def between(world: Any, views: Mapping[float, CameraLike]) -> MovingCamera:
         return Camera(np.asarray(np.linalg.inv(pose), dtype=float), fov, min(cameras[i].near, cameras[j].near), far)
 
     return camera
+
+
+def _as_it_is(world: Any, view: CameraLike) -> Camera:
+    """A camera as of `render`, where it is now."""
+    view = mounted(world, view) or view
+    return look(world, view=view or "auto") if view is None or isinstance(view, str) else as_camera(view)
 
 
 def _distance(world: Any, start: Camera, distance: float | None) -> float:

@@ -13,17 +13,18 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.cameras import MountedCamera
 from pydart2.gui import context as contexts
 from pydart2.gui import draw_list
 from pydart2.gui.camera import Camera, as_camera
-from pydart2.gui.first_look import floor_of, look
+from pydart2.gui.first_look import floor_of, look, mounted
 from pydart2.gui.trackball import Trackball
 
 if TYPE_CHECKING:
     from pydart2.gui.draw_list import Item
     from pydart2.gui.targets import BodiesTarget, ColorTarget
 
-CameraLike = int | str | Trackball | Camera | tuple[ArrayLike, float] | None
+CameraLike = int | str | Trackball | Camera | MountedCamera | tuple[ArrayLike, float] | None
 Mode = Literal["rgb", "depth", "segmentation"]
 
 _MODES = ("rgb", "depth", "segmentation")
@@ -99,9 +100,10 @@ class OffscreenRenderer:
             Pixels, if they are not to be those of the renderer.
         camera
             None: one that sees all that is there, with the world's up upwards; a floor is drawn where the world has
-            none. The same by name, from "front", "back", "left", "right" or "top". Or, without such a floor, 0 (Y up)
-            and 1 (Z up) as in windows, a Trackball, a Camera, or (pose, fov): the eye's pose in the world, shape
-            (4, 4), which looks along its -z with y upwards, and the vertical field of view in rad.
+            none. The same by name, from "front", "back", "left", "right" or "top". Or, without such a floor, one of
+            ``world.cameras`` by its name, 0 (Y up) and 1 (Z up) as in windows, a Trackball, a Camera, or (pose, fov):
+            the eye's pose in the world, shape (4, 4), which looks along its -z with y upwards, and the vertical field
+            of view in rad.
         mode
             "rgb": (height, width, 3) uint8. "depth": (height, width) float32, m along the optical axis, inf for the
             background. "segmentation": (height, width, 2) int32, skeleton and body id, -1 for none. Row 0 is on top.
@@ -115,6 +117,7 @@ class OffscreenRenderer:
         _check_size(*size)
         if mode not in _MODES:
             raise ValueError(f"no mode {mode!r}; there are {', '.join(_MODES)}")
+        camera = mounted(world, camera) or camera
         if camera is None or isinstance(camera, str):
             eye, floor = look(world, size[0] / size[1], camera or "auto", still=True), floor_of(world)
         else:

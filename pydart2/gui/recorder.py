@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydart2.errors import SimulationError
 from pydart2.gui.capture import MovieWriter
-from pydart2.gui.first_look import floor_of, look
+from pydart2.gui.first_look import floor_of, look, mounted
 from pydart2.gui.runtime import Runtime
 from pydart2.utils.progress import progress
 
@@ -41,8 +41,9 @@ def record(
     fps
         Pictures a second.
     camera
-        As of `render`. None or a name: where that camera is at the start, it stays. Or one that moves
-        (`pydart2.gui.follow`, `orbit`, `between`), a function of the time since the start in s.
+        As of `render`. None, "front" and so on: where that camera is at the start, it stays; those of ``world.cameras``
+        go with what they are mounted on. Or one that moves (`pydart2.gui.follow`, `orbit`, `between`), a function of
+        the time since the start in s.
     size
         Width and height, pixels.
     speed
@@ -119,6 +120,7 @@ class Movie:
         self._renderer = OffscreenRenderer(width, height)
         self._writer = MovieWriter(path, fps)
         self._camera: Callable[[float], Any]
+        camera = mounted(sim, camera) or camera
         if callable(camera):
             self._camera = camera
         else:

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 _BALL = 0.8  # radius of the ball in half viewports
+#: Vertical field of view of a trackball camera, rad.
+FIELD_OF_VIEW = np.pi / 4.0
 _ZOOM, _DISTANCE = (0.25, 10.0), 1.0
 
 
@@ -34,7 +36,11 @@ class Trackball:
     ----------
     viewport : (width, height)
         Pixels of the picture, for `drag_to`.
+    fov : float
+        Vertical field of view, rad.
     """
+
+    fov: float = FIELD_OF_VIEW
 
     def __init__(
         self,

@@ -32,7 +32,7 @@ def launch_window(sim: Any, win: Any, default_camera: int | None) -> Any:
     return win
 
 
-def launch_pyqt5(sim: Any, title: str | None = None, default_camera: int | None = None) -> PyQt5Window:
+def launch_pyqt5(sim: Any, title: str | None = None, default_camera: int | str | None = None) -> PyQt5Window:
     """Show a simulation until the window is closed.
 
     Parameters
@@ -43,7 +43,8 @@ def launch_pyqt5(sim: Any, title: str | None = None, default_camera: int | None 
         Of the window.
     default_camera
         0: Y up, 1: Z up; None takes the world's up, sees all that is there, and draws a floor where the
-        world has none.
+        world has none. The same by name, from "front", "back", "left", "right" or "top"; or one of ``world.cameras``,
+        which goes with what it is mounted on. They are in the menu, too.
 
     Returns
     -------
@@ -53,12 +54,15 @@ def launch_pyqt5(sim: Any, title: str | None = None, default_camera: int | None 
     ------
     NoDisplayError
         If there is no display.
+    NameNotFound
+        If there is no camera of that name.
     """
     from pydart2.gui.pyqt5.window import PyQt5Window
 
     window = PyQt5Window(sim, title)
-    if default_camera is None:
-        window.commands.first_look()
+    if default_camera is None or isinstance(default_camera, str):
+        window.commands.first_look(default_camera or "auto")
+        default_camera = None
     launch_window(sim, window, default_camera)
     return window
 

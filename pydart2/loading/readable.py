@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
 from pydart2._native import WorldHandle
 from pydart2.loading.xml import Document
+
+if TYPE_CHECKING:
+    from pydart2.cameras import MountedCamera
+    from pydart2.world import World
 
 
 class Readable:
@@ -27,6 +34,10 @@ class Readable:
     @property
     def keyframes(self) -> dict[str, NDArray[np.float64]]:
         """Name → [q, dq] of all skeletons, shape (2 * sum of ndofs,), rad, m, rad/s and m/s."""
+        return {}
+
+    def cameras(self, world: World, still: bool) -> Mapping[str, MountedCamera]:
+        """Name → camera, of the world that it was loaded as or added to; without `still` only those that can move."""
         return {}
 
     def __fspath__(self) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import logging
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +15,16 @@ from pydart2.errors import LoadError
 from pydart2.loading.readable import Readable
 from pydart2.loading.xml import Document
 from pydart2.mjcf.actuators import add_actuators
+from pydart2.mjcf.cameras import cameras_of, note_cameras
 from pydart2.mjcf.compile import Compiled, compile_model, mujoco_module, try_to_compile
 from pydart2.mjcf.contacts import set_filter
 from pydart2.mjcf.equalities import add_equalities
 from pydart2.mjcf.geoms import GEOMS
 from pydart2.mjcf.trees import Built, add_static, add_tree, trees_of
+
+if TYPE_CHECKING:
+    from pydart2.cameras import MountedCamera
+    from pydart2.world import World
 
 _log = logging.getLogger("pydart2")
 
@@ -53,6 +59,10 @@ class MjcfModel(Readable):
             parts = [part for c in self.built.coordinates.values() for part in (c.q(qpos), c.dq(qpos, qvel))]  # type: ignore[union-attr]
             states[str(model.key(key).name) or f"key{key}"] = np.concatenate(parts) if parts else np.zeros(0)
         return states
+
+    def cameras(self, world: World, still: bool) -> Mapping[str, MountedCamera]:
+        """Name → camera, of the world that it was loaded as or added to; without `still` only those that can move."""
+        return dict(cameras_of(self.compiled, self.built, world, still)) if self.built else {}
 
     def load_world(self) -> WorldHandle:
         """A new world with all of it and MuJoCo's gravity.
@@ -91,11 +101,7 @@ class MjcfModel(Readable):
         add_static(model, world, built)
         for bodies in trees_of(model).values():
             add_tree(model, world, bodies, built)
-        notes = self._without_counterpart()
-        set_filter(model, world, built, notes)
-        add_equalities(model, world, built, notes)
-        add_actuators(model, world, built, notes)
-        self._warn(notes)
+        self._complete(world, built)
         return world
 
     def _add_to(self, world: WorldHandle) -> int:
@@ -105,14 +111,16 @@ class MjcfModel(Readable):
             raise self.document.error(self.document.root, many if trees else "it has no moving body")
         built = self.built = Built()
         index = add_tree(self.compiled, world, trees[0], built)
+        self._complete(world, built)
+        return index
+
+    def _complete(self, world: WorldHandle, built: Built) -> None:
+        """Add what there is beside bodies and joints, and say once what is left out."""
         notes = self._without_counterpart()
         set_filter(self.compiled, world, built, notes)
         add_equalities(self.compiled, world, built, notes)
         add_actuators(self.compiled, world, built, notes)
-        self._warn(notes)
-        return index
-
-    def _warn(self, notes: set[str]) -> None:
+        note_cameras(self.compiled, built, notes)
         if notes:
             _log.warning("%s: left out: %s", self.document.path or "XML text", "; ".join(sorted(notes)))
 

@@ -15,6 +15,7 @@ from pydart2.poses import pose
 from pydart2.simulation.part import WorldPart
 
 if TYPE_CHECKING:
+    from pydart2.cameras import MountedCamera
     from pydart2.loading import Missing, Reader, Source
     from pydart2.loading.readable import Readable
     from pydart2.skeleton import Skeleton
@@ -112,7 +113,8 @@ class Members(WorldPart):
                 skel._place(where)
             if enforce_limits:
                 skel.set_position_limits_enforced()
-            return skel
+        self._take_cameras(model, skel)
+        return skel
 
     def add_skeletons(
         self,
@@ -189,9 +191,22 @@ class Members(WorldPart):
             other.id = i
         self.collision_result._forget_skeleton(index)
         self._find_controllers()
+        for title, camera in list(self._cameras.items()):
+            if any(body is not None and body.skeleton is skel for body in (camera.body, camera.target)):
+                del self._cameras[title]
 
     def _load(self, model: Readable, cls: type[Skeleton] | None) -> Skeleton:
         return (cls or self.CLASS_SKELETON)(cast("World", self), _filename=model)
+
+    def _take_cameras(self, model: Readable, skel: Skeleton) -> None:
+        """Have the cameras of a model that was added; names that are taken get the skeleton's before them."""
+        for name, camera in model.cameras(cast("World", self), still=False).items():
+            self._cameras[f"{skel.name}/{name}" if name in self._cameras else name] = camera
+
+    @property
+    def cameras(self) -> dict[str, MountedCamera]:
+        """Name → camera, those of MJCF files and those that you put in: ``gui.render(world, camera="name")``."""
+        return self._cameras
 
     def _take_in(self, skel: Skeleton) -> None:
         """Have a skeleton that the engine's world has."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from pydart2._native import WorldHandle
+    from pydart2.cameras import MountedCamera
     from pydart2.collision_result import CollisionResult
     from pydart2.skeleton import Skeleton
 
@@ -15,6 +16,7 @@ class WorldPart:
     """The base of the parts of World."""
 
     skeletons: list[Skeleton]
+    _cameras: dict[str, MountedCamera]
     collision_result: CollisionResult
     _handle: WorldHandle
     _step: Callable[[int], None]

@@ -64,7 +64,7 @@ class OpenGLScene:
     def render(self, sim: Any = None, camera: Camera | None = None) -> None:
         """Draw the background, then ``sim.render()``, ``sim.render_with_ri(ri)`` and ``sim.draw_with_ri(ri)``, those
         that `sim` has, with the camera `tb` or another."""
-        self._begin(sim, camera or Camera(self.tb.view))
+        self._begin(sim, camera or Camera(self.tb.view, self.tb.fov))
         if sim is None:
             return
         with _undone():
@@ -137,6 +137,12 @@ class OpenGLScene:
         self.cameras.append(trackball)
         if self.window is not None and hasattr(self.window, "add_camera_event"):
             self.window.add_camera_event(self, trackball, name)
+
+    def remove_camera(self, idx: int) -> None:
+        """Take a camera away; if it was in use, the first one is. IndexError if there is none of that number."""
+        gone = self.cameras.pop(idx)
+        if self.tb is gone:
+            self.tb = self.cameras[0]
 
     def set_camera(self, camera_index: int) -> None:
         """Use a camera; IndexError if there is none of that number."""

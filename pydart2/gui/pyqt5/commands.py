@@ -10,9 +10,10 @@ from PyQt5.QtWidgets import QFileDialog
 from scipy.spatial.transform import Rotation
 
 from pydart2.bodynode import BodyNode
-from pydart2.gui.first_look import floor_of, look, open_world
+from pydart2.gui.first_look import floor_of, look, mounted, open_world
 from pydart2.gui.placing import boxes
 from pydart2.gui.pyqt5.actions import SPEEDS
+from pydart2.gui.riding import RidingTrackball
 from pydart2.gui.trackball import Trackball
 from pydart2.loading import read_model
 from pydart2.skeleton import Skeleton
@@ -73,12 +74,17 @@ class Commands:
         shown = next((i for i, tb in enumerate(scene.cameras) if tb is scene.tb), 0)
         self.window.camera_event((shown + 1) % max(scene.num_cameras(), 1))
 
-    def first_look(self) -> None:
-        """See all from where `gui.render` sees it, with the world's up upwards, and a floor where there is none."""
+    def first_look(self, view: str = "auto") -> None:
+        """See what `gui.render` sees by that name: all, with the world's up upwards and a floor where there is none, or
+        what a camera of the world sees."""
         sim, scene = self.window.sim, self.window.scene
+        if (camera := mounted(self.window.world, view)) is not None:
+            riding = [isinstance(tb, RidingTrackball) and tb.mount is camera for tb in scene.cameras]
+            self.window.camera_event(riding.index(True))
+            return
         self.window.glwidget.overlays.floor = floor_of(sim)
         if self.window.world is not None:
-            rot = Rotation.from_matrix(look(sim).pose[:3, :3]).as_quat()
+            rot = Rotation.from_matrix(look(sim, view=view).pose[:3, :3]).as_quat()
             scene.replace_camera(scene.cameras.index(scene.tb), Trackball(rot=rot.tolist()))
         self.frame_all()
 

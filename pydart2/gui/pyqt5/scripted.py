@@ -14,6 +14,7 @@ from pydart2.gui.opengl.scene import OpenGLScene
 from pydart2.gui.pyqt5.glwidget import GLWidget, ImageWidget
 from pydart2.gui.pyqt5.inspector import Inspector
 from pydart2.gui.pyqt5.panes import ErrorPane, HelpOverlay
+from pydart2.gui.riding import RidingTrackball
 from pydart2.gui.runtime import Runtime
 from pydart2.gui.trackball import Trackball
 from pydart2.world import World
@@ -117,12 +118,22 @@ class Scripted(QMainWindow):
 
     def add_camera_event(self, scene: Any, trackball: Trackball, name: str) -> None:
         """Add an entry to the camera menu; the scene calls it for each of its cameras."""
-        index = len(self.cameraGroup.actions())
         action = QAction(name, self)
         action.setCheckable(True)
-        action.triggered.connect(lambda: self.camera_event(index))
+        action.triggered.connect(lambda: self.camera_event(self.cameraGroup.actions().index(action)))
         self.cameraGroup.addAction(action)
         self.cameraMenu.addAction(action)
+
+    def show_cameras_of(self, world: World | None) -> None:
+        """Have the cameras of a world in the menu, and no longer those of another one."""
+        for index, trackball in reversed(list(enumerate(self.scene.cameras))):
+            if isinstance(trackball, RidingTrackball):
+                self.scene.remove_camera(index)
+                action = self.cameraGroup.actions()[index]
+                self.cameraGroup.removeAction(action)
+                self.cameraMenu.removeAction(action)
+        for name, camera in (world._cameras if world is not None else {}).items():
+            self.add_camera(RidingTrackball(camera), name)
 
     def camera_event(self, cam_id: int) -> None:
         """Look through a camera: 0 has Y up, 1 has Z up."""

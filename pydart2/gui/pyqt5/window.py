@@ -193,6 +193,7 @@ class PyQt5Window(Scripted):
         self.inspector.setVisible(self.world is not None and self._has_room)
         self._folded = self.world is not None and not self._has_room
         self.inspector.show_world(self.world)
+        self.show_cameras_of(self.world)
         for name in ("follow", *self.glwidget.overlays.TOGGLES):
             self.named_actions[name].setEnabled(self.world is not None)
         self.after_reset = True
