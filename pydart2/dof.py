@@ -195,7 +195,7 @@ class Dof(Part):
     def set_armature(self, inertia: float) -> None:
         """Set the inertia of what turns with the joint only, kg m² or kg, >= 0.
 
-        It is added to the diagonal of M and acts in the motion, but not in the response to contacts and limits.
+        It is added to the diagonal of M, and acts in the motion and in the response to contacts and constraints.
         """
         self._handle.set_armature(inertia)
 

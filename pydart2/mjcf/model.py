@@ -141,7 +141,6 @@ class MjcfModel(Readable):
             ),
             "damping and friction of free joints": self._free_joints_resist(),
             "partial gravity compensation": np.any(~np.isin(model.body_gravcomp, (0.0, 1.0))),
-            "armature in the response to contacts and limits": np.any(model.dof_armature),
         }
         return {what for what, count in present.items() if count}
 

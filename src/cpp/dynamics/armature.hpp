@@ -2,33 +2,16 @@
 
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <map>
-#include <vector>
 
 namespace pydart2 {
 
 /// Rotor inertia by dof, as MuJoCo's armature: what it adds to the diagonal of the mass matrix. Only dofs that have some.
 using Armature = std::map<dart::dynamics::DegreeOfFreedom*, double>;
 
-/// While one is alive, the engine's forward dynamics solve (M + A + dt D) ddq = f - D dq ... in place of
-/// (M + dt D) ddq = ...: D + A/dt is the damping, as which the engine takes it implicitly, and A/dt dq a force that undoes
-/// what this damping does to the present velocity. The response to impulses has no armature.
-class WithArmature
-{
-public:
-  WithArmature(const Armature& armature, double time_step);
-  ~WithArmature();
-  WithArmature(const WithArmature&) = delete;
-  WithArmature& operator=(const WithArmature&) = delete;
-
-private:
-  struct Before
-  {
-    dart::dynamics::DegreeOfFreedom* dof;
-    dart::dynamics::Joint::ActuatorType actuator;
-    double damping, force, command;
-  };
-
-  std::vector<Before> before_;
-};
+/// Forms the articulated inertias of a skeleton with the armature A of its joints, (J' I J + A)^-1 in place of
+/// (J' I J)^-1 (Featherstone, Rigid Body Dynamics Algorithms, section 9.6), where the engine keeps its own: forward dynamics
+/// and the response to impulses have them from then on, until positions change or the engine forms its own again. Nothing
+/// without armature.
+void put_into_inertias(const Armature& armature, dart::dynamics::Skeleton& skeleton);
 
 } // namespace pydart2

@@ -32,6 +32,7 @@ struct BodyMembers : dart::dynamics::BodyNode
   static constexpr auto partial_acceleration_dirty = &BodyMembers::mIsPartialAccelerationDirty;
   static constexpr auto inertia = &BodyMembers::mArtInertia;
   static constexpr auto inertia_implicit = &BodyMembers::mArtInertiaImplicit;
+  static constexpr auto update_inertia = &BodyMembers::updateArtInertia;
   static constexpr auto gravity_force = &BodyMembers::mFgravity;
   static constexpr auto bias_force = &BodyMembers::mBiasForce;
   static constexpr auto force = &BodyMembers::mF;

@@ -241,6 +241,7 @@ void DofHandle::set_armature(double inertia)
     dof_.skeleton->armature[dof] = inertia;
   else
     dof_.skeleton->armature.erase(dof);
+  dof->getSkeleton()->dirtyArticulatedInertia(dof->getTreeIndex());
 }
 
 double DofHandle::coulomb_friction() const

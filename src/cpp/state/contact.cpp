@@ -114,6 +114,7 @@ void check_collision(WorldRecord& world)
     for (std::size_t i = 0; i < skeleton.getNumDofs(); ++i)
       values[i] = skeleton.getDof(i)->getConstraintImpulse();
     impulses.push_back(values);
+    put_into_inertias(record->armature, skeleton);
   }
   const auto take_back = [&] {
     for (std::size_t s = 0; s < world.skeletons.size(); ++s) {

@@ -274,9 +274,9 @@ TreeDynamics* choose_mover(const WorldRecord& record, SkeletonRecord& item)
   return ours != nullptr && ours->is_for_engine() ? nullptr : ours;
 }
 
-void accelerate(SkeletonRecord& item, double dt)
+void accelerate(SkeletonRecord& item)
 {
-  const WithArmature with_armature(item.armature, dt);
+  put_into_inertias(item.armature, *item.skeleton);
   if (item.mover != nullptr)
     item.mover->accelerate();
   else
@@ -306,7 +306,7 @@ void predict(const WorldRecord& record, SkeletonRecord& item, double end)
   const double dt = record.world->getTimeStep();
   item.motors.act(skeleton, item.armature, dt);
   item.mover = choose_mover(record, item);
-  accelerate(item, dt);
+  accelerate(item);
   if (has_integrator(record, item))
     prepare_integrator(record, item, dt);
   if (item.mover != nullptr)
