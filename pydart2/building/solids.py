@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import pi
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+_LARGEST = 1e100  # m, whose third power is a number
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,9 +49,12 @@ def _three(size: ArrayLike, what: str) -> tuple[float, float, float]:
 
 def _lengths(*values: float) -> tuple[float, ...]:
     try:
-        return tuple(map(float, values))
+        lengths = tuple(map(float, values))
     except TypeError:
         raise TypeError(f"lengths are numbers, in m, not {', '.join(map(repr, values))}") from None
+    if any(_LARGEST < abs(length) < inf for length in lengths):
+        raise ValueError(f"lengths are at most {_LARGEST:g} m, got {', '.join(map(repr, values))}")
+    return lengths
 
 
 def _round(along: float, across: float) -> NDArray[np.float64]:

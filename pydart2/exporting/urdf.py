@@ -15,6 +15,7 @@ from pydart2.exporting.shapes import Use, mesh_file, mesh_scale, note_surfaces, 
 from pydart2.loading.mending import UNBOUNDED
 
 _TYPES = {"weld": "fixed", "revolute": "revolute", "prismatic": "prismatic", "free": "floating", "planar": "planar"}
+_FREE_ROOT = "rootJoint"  # of which the engine makes the joint of a root without one
 _SHAPES = ("box", "sphere", "cylinder", "capsule", "mesh")
 
 
@@ -35,7 +36,7 @@ def root_of(skeletons: list[SkeletonPart], world: WorldPart | None, losses: Loss
     put_frames_at_joints(skel, losses, lambda link: True)
     implied = _is_implied(skel)
     if implied:
-        losses.add_dofs(skel.links[0].joint, ())
+        _note_free_root(skel.links[0], losses)
     else:
         add(root, "link", name=GROUND)
     for link in skel.links:
@@ -48,10 +49,17 @@ def root_of(skeletons: list[SkeletonPart], world: WorldPart | None, losses: Loss
 
 
 def _is_implied(skel: SkeletonPart) -> bool:
-    """Whether there is one root, on the joint that readers give to one without a joint."""
+    """Whether there is one root and it is free: a link without a joint, which readers let float."""
     first, *others = (link for link in skel.links if link.parent is None)
-    plain = first.joint.kind == "free" and first.joint.name == "rootJoint" and is_identity(first.in_parent)
-    return plain and not others
+    return first.joint.kind == "free" and not others
+
+
+def _note_free_root(root: LinkPart, losses: Losses) -> None:
+    if root.joint.name != _FREE_ROOT:
+        losses.add("names of the joints of free roots", root.joint.name)
+    if not is_identity(root.in_parent):
+        losses.add("where the positions of free roots count from, now the origin", root.name)
+    losses.add_dofs(root.joint, ())
 
 
 def _turn_to_xy(link: LinkPart) -> None:
@@ -120,6 +128,8 @@ def _geometry(geometry: Element, shape: ShapePart, losses: Losses, folder: str |
 
 def _joint(root: Element, link: LinkPart, losses: Losses) -> None:
     joint = link.joint
+    if joint.kind == "free":
+        losses.add("free joints, which other readers may take for fixed", joint.name)
     one = joint.kind in ("revolute", "prismatic")
     endless = joint.kind == "revolute" and (joint.dofs[0].lower, joint.dofs[0].upper) == (-math.inf, math.inf)
     element = add(root, "joint", name=joint.name, type="continuous" if endless else _TYPES[joint.kind])

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import logging
 import math
+import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import pydart2 as pydart
 
@@ -86,16 +88,32 @@ def order_of(other: pydart.Skeleton, skel: pydart.Skeleton) -> list[int]:
     return order
 
 
-def assert_moves_as(other: pydart.Skeleton, skel: pydart.Skeleton, poses: bool = True) -> None:
-    """M, c and the poses of all bodies, at five random states; dofs and bodies by their names."""
+def root_from_origin(other: pydart.Skeleton, skel: pydart.Skeleton, q: np.ndarray) -> np.ndarray:
+    """Positions with those of the free root, counted from the origin, where the other's root is."""
+    root = other.joints[0]
+    if root.type() == "FreeJoint":
+        T = skel.body(other.bodynodes[0].name).T
+        q[[dof.id for dof in root.dofs]] = [*Rotation.from_matrix(T[:3, :3]).as_rotvec(), *T[:3, 3]]
+    return q
+
+
+def assert_moves_as(
+    other: pydart.Skeleton, skel: pydart.Skeleton, poses: bool = True, from_origin: bool = False, fixed: bool = True
+) -> None:
+    """M, c and the poses of all bodies, at five random states; dofs and bodies by their names.
+
+    `from_origin`: a free root's positions count from there; not `fixed`: without bodies that are fixed to the world.
+    """
     order = order_of(other, skel)
-    assert {body.name for body in other.bodynodes} >= {body.name for body in skel.bodynodes}
+    bodies = {body.name for body in skel.bodynodes if fixed or body.num_dependent_dofs() > 0}
+    assert {body.name for body in other.bodynodes} >= bodies
     for q, dq in states(skel):
-        skel.q, skel.dq, other.q, other.dq = q, dq, q[order], dq[order]
+        skel.q, skel.dq = q, dq
+        other.q, other.dq = root_from_origin(other, skel, q[order]) if from_origin else q[order], dq[order]
         assert_near(other.M, skel.M[np.ix_(order, order)])
         assert_near(other.c, skel.c[order])
-        for body in skel.bodynodes if poses else ():
-            assert pytest.approx(body.T, abs=1e-12) == other.body(body.name).T, body.name
+        for name in bodies if poses else ():
+            assert pytest.approx(skel.body(name).T, abs=1e-12) == other.body(name).T, name
 
 
 def drawn_and_colliding(body: pydart.BodyNode) -> list[list[Any]]:
@@ -201,7 +219,7 @@ def test_models_come_back(file: str, title: str) -> None:
                 text_of(skel, title)
             continue
         other = again(skel, title)
-        assert_moves_as(other, skel)
+        assert_moves_as(other, skel, from_origin=title == "URDF")
         if other.nbodies == skel.nbodies:
             capsule_of_urdf = (skel.name, title) == ("capsule skeleton", "URDF")
             assert_is(other, skel, title, shapes=not capsule_of_urdf)
@@ -374,7 +392,7 @@ def test_urdf_holds_joints_that_follow_others() -> None:
 
 
 def test_roots_come_back() -> None:
-    """Several of them, free ones apart from the origin, and the usual one, which URDF does not say."""
+    """Several of them, free ones apart from the origin, and the usual one, which URDF does not name."""
     skel = pydart.World(0.001).add_empty_skeleton("two")
     for name in ("left", "right"):
         skel.add_body(name, joint="free", joint_position=(0.1, 0, 0), orientation=TURN).add_box((1, 2, 3))
@@ -383,6 +401,23 @@ def test_roots_come_back() -> None:
     assert_moves_as(again(skel, "URDF"), skel, poses=False)
     usual = pydart.World(0.001).add_skeleton("./data/urdf/PR2/pr2.urdf")
     assert '"world"' not in usual.to_urdf()
+
+
+def test_a_free_root_of_urdf_is_a_link_without_a_joint(caplog: pytest.LogCaptureFixture) -> None:
+    """Other readers take a floating joint under a link `world` for a fixed one."""
+    skel = pydart.World(0.001, up="z").add_empty_skeleton("drone")
+    body = skel.add_body("hull", joint="free", position=(0.0, 0.0, 1.0))
+    body.add_box((0.1, 0.2, 0.3))
+    skel.add_body("arm", body, "revolute", axis=(0, 1, 0)).add_sphere(0.1, position=(0.0, 0.0, 0.2))
+    root = ElementTree.fromstring(skel.to_urdf())
+    assert [link.get("name") for link in root.iter("link")] == ["hull", "arm"]
+    assert [joint.get("type") for joint in root.iter("joint")] == ["continuous"]
+    said = losses_of(skel, "URDF", caplog)
+    assert said.endswith("names of the joints of free roots ('hull_joint'); initial positions ('hull_joint_pos_z')")
+    assert_moves_as(again(skel, "URDF"), skel)
+    skel.joints[0].set_transform_from_parent_body_node(skel.body("hull").T)
+    assert "where the positions of free roots count from, now the origin ('hull')" in losses_of(skel, "URDF", caplog)
+    assert_moves_as(again(skel, "URDF"), skel, from_origin=True)
 
 
 def test_meshes_are_named_from_the_folder_of_the_file(tmp_path: Path) -> None:

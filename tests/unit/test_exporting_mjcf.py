@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import pydart2 as pydart
-from unit.test_exporting import JOINTS, robot
+from unit.test_exporting import JOINTS, assert_moves_as, robot
 
 MODELS = ("chain.skel", "fullbody1.skel", "atlas_v3_no_head.sdf", "pr2.urdf")
 
@@ -90,14 +90,32 @@ def test_models(file: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("file", MODELS)
 def test_models_come_back(file: str, tmp_path: Path) -> None:
-    """Read by ourselves; joints of several dofs are several."""
+    """Read by ourselves: M, c and poses at random states; joints of several dofs are several."""
     skel = load(file)
     skel.save(tmp_path / "model.xml")
-    twin = pydart.World(0.001).add_skeleton(tmp_path / "model.xml")
-    assert twin.ndofs == skel.ndofs
+    world = pydart.World(0.001)
+    world.g = skel.world.g
+    twin = world.add_skeleton(tmp_path / "model.xml")
     assert twin.m == pytest.approx(skel.m, rel=1e-12)
-    skel.q, twin.q = np.zeros(skel.ndofs), np.zeros(twin.ndofs)
-    np.testing.assert_allclose(np.linalg.eigvalsh(twin.M), np.linalg.eigvalsh(skel.M), atol=1e-9)
+    assert_moves_as(twin, skel, from_origin=True, fixed=False)
+
+
+@pytest.mark.parametrize("joint", sorted({*JOINTS} - {"screw", "free"}))
+def test_a_joint_of_each_kind_comes_back(joint: str) -> None:
+    skel = robot(joint)
+    world = pydart.World(0.001)
+    world.g = skel.world.g
+    twin = world.add_skeleton(skel.to_mjcf())
+    assert_moves_as(twin, skel, poses=joint != "ball", fixed=False)  # whose link has its frame at the joint then
+
+
+@pytest.mark.parametrize("file", ["cubes", "shapes"])
+def test_free_bodies_come_back(file: str) -> None:
+    for skel in pydart.World(0.001, f"skel/{file}.skel").skeletons:
+        if skel.ndofs and skel.name not in ("cone skeleton", "multi sphere skeleton"):
+            world = pydart.World(0.001)
+            world.g = skel.world.g
+            assert_moves_as(world.add_skeleton(skel.to_mjcf()), skel, from_origin=True)
 
 
 def test_numbers_of_joints() -> None:
