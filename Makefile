@@ -3,7 +3,7 @@
 # make docs   docs/_build/html, with a picture or clip of each example
 # make wheel  a wheel that carries DART, and the source archive, in dist/; both as an index would check them
 # make engine the same DART with -O3 -DNDEBUG in build/engine/prefix; then PYDART2_DART_PREFIX=build/engine/prefix make ...
-# make test-debian13, make test-packaging, make test-third-party, make test-viewer, make test-launches, make test-solver,
+# make test-debian13, make test-packaging, make test-third-party, make test-mujoco, make test-viewer, make test-launches, make test-solver,
 #   make fuzz, make soak, make mutations, make sanitize, make coverage, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
@@ -15,7 +15,7 @@ FUZZ_LOADS ?= 20000
 FUZZ_CALLS ?= 1000000
 FUZZ_SECONDS ?= 300
 
-.PHONY: demo test ahead docs test-debian13 test-packaging test-third-party test-viewer test-launches test-solver features fuzz mutations \
+.PHONY: demo test ahead docs test-debian13 test-packaging test-third-party test-mujoco test-viewer test-launches test-solver features fuzz mutations \
   soak sanitize coverage \
   bench wheel engine lint setup clean
 
@@ -85,6 +85,17 @@ test-third-party: setup
 	$(VENV)/bin/pip install --quiet pin example-robot-data
 	$(VENV)/bin/python tests/models/what_loads.py build/third-party >docs/what-loads.md
 	$(VENV)/bin/python -m pytest -m third_party
+
+# The readers of MJCF with the oldest and the newest mujoco that the extra allows, each in a folder of its own.
+OLDEST_MUJOCO = $(shell sed -n 's/^mjcf = \["mujoco>=\(.*\)"\]/\1/p' pyproject.toml)
+
+test-mujoco: setup
+	$(VENV)/bin/pip install --quiet --upgrade --no-deps --target build/mujoco-oldest mujoco==$(OLDEST_MUJOCO)
+	$(VENV)/bin/pip install --quiet --upgrade --no-deps --target build/mujoco-newest mujoco
+	for age in oldest newest; do \
+	  PYTHONPATH=build/mujoco-$$age $(VENV)/bin/python -c 'import mujoco; print(mujoco.__file__, mujoco.__version__)' \
+	  && PYTHONPATH=build/mujoco-$$age $(VENV)/bin/python -m pytest -q tests/unit/test_mjcf.py tests/models/test_mjcf_models.py \
+	    tests/unit/test_exporting_mjcf.py tests/gui/test_mounted_cameras.py || exit 1; done
 
 # The others' packages are big (1 GB), so they have a folder of their own.
 features: setup

@@ -88,5 +88,6 @@ def add_inertial(body: Element, link: LinkPart) -> None:
     element = add(body, "inertial", **attributes(pos=link.com, mass=link.mass))
     if np.array_equal(inertia, np.diag(diagonal)):
         element.set("diaginertia", text(diagonal))
-    else:
-        element.set("fullinertia", text([*diagonal, inertia[0, 1], inertia[0, 2], inertia[1, 2]]))
+    else:  # MuJoCo's own decomposition of a fullinertia is one to 1e-9 in older versions
+        principal, axes = np.linalg.eigh(inertia)
+        element.attrib.update(attributes(diaginertia=principal, xyaxes=axes[:, :2].T))

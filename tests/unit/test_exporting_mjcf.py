@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import pydart2 as pydart
+from oracle.mujoco_judge import full_mass_matrix
 from unit.test_exporting import JOINTS, assert_moves_as, robot
 
 MODELS = ("chain.skel", "fullbody1.skel", "atlas_v3_no_head.sdf", "pr2.urdf")
@@ -36,9 +37,7 @@ class Judge:
     def look(self) -> np.ndarray:
         """The mass matrix without armature at the present positions, which move all bodies."""
         mujoco.mj_forward(self.model, self.data)
-        M = np.zeros((self.model.nv, self.model.nv))
-        mujoco.mj_fullM(self.model, self.data, M)
-        return M
+        return full_mass_matrix(self.model, self.data)
 
     def place(self, body: str, com: bool) -> np.ndarray:
         return np.array(self.data.body(body).xipos if com else self.data.body(body).xpos)
