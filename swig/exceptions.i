@@ -1,4 +1,4 @@
-// Every call: what the engine prints goes to Python's logging, and a C++ exception becomes the Python exception of its kind (numpy_glue.hpp, errors.hpp).
+// Every call: what the engine prints goes to Python's logging, and a C++ exception becomes the Python exception of its kind (python_errors.hpp, errors.hpp).
 %exception {
   try {
     pydart2::messages::Listening listening;

@@ -4,31 +4,17 @@
 #include <numpy/arrayobject.h>
 #include <numpy/arrayscalars.h>
 
-#include <cxxabi.h>
-#include <unistd.h>
-
-#include <atomic>
-#include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "base/arrays.hpp"
-#include "base/errors.hpp"
-#include "base/interrupt.hpp"
-#include "base/messages.hpp"
 #include "python/contact_row.hpp"
 #include "python/named_vector.hpp"
+#include "python_errors.hpp"
 #include "state/blueprint.hpp"
 
-/// What the typemaps call: NumPy in, NumPy out, exceptions across.
+/// What the typemaps call: NumPy in, NumPy out.
 namespace pydart2::python {
-
-/// Thrown where a Python error is set already.
-struct ErrorIsSet
-{
-};
 
 /// The ndarray that a method fills: a fresh one, or after use(o) what the caller passed. That is a pattern for a fresh
 /// one with the same names if it is a named vector that is read-only, else the array to fill.
@@ -107,120 +93,6 @@ private:
   PyObject* array_ = nullptr;
   PyObject* passed_ = nullptr;
 };
-
-/// Releases the interpreter lock for the time of a long call, which Python's signal handlers (Ctrl-C) may end.
-class WithoutGil
-{
-public:
-  WithoutGil() : state_(PyEval_SaveThread()) { ++running; }
-  ~WithoutGil()
-  {
-    take_back();
-    --running;
-  }
-  WithoutGil(const WithoutGil&) = delete;
-  WithoutGil& operator=(const WithoutGil&) = delete;
-
-  /// Ends a process whose interpreter has ended: with a daemon thread still inside a long call, it ends here, before the
-  /// libraries take down what that thread uses.
-  static void at_exit(int status, void*)
-  {
-    if (running == 0)
-      return;
-    std::fflush(nullptr);
-    _exit(status);
-  }
-
-private:
-  /// When the interpreter has ended it ends the thread by unwinding it, which may not pass a destructor nor our handlers:
-  /// the thread waits for the end of the process instead, as all do from Python 3.14 on.
-  void take_back()
-  {
-    try {
-      PyEval_RestoreThread(state_);
-    } catch (const abi::__forced_unwind&) {
-      for (;;)
-        pause();
-    }
-  }
-
-  /// Python runs handlers on the main thread only.
-  static void run_signal_handlers(void* self)
-  {
-    if (gettid() != getpid())
-      return;
-    auto& state = static_cast<WithoutGil*>(self)->state_;
-    static_cast<WithoutGil*>(self)->take_back();
-    const bool raised = PyErr_CheckSignals() != 0;
-    state = PyEval_SaveThread();
-    if (raised)
-      throw ErrorIsSet{};
-  }
-
-  inline static std::atomic<int> running{0};
-  PyThreadState* state_;
-  const Interruptible interruptible_{run_signal_handlers, this};
-};
-
-/// Raises pydart2.errors.<name>.
-inline void raise_own(const char* name, const char* message)
-{
-  PyObject* module = PyImport_ImportModule("pydart2.errors");
-  PyObject* type = module == nullptr ? nullptr : PyObject_GetAttrString(module, name);
-  if (type != nullptr)
-    PyErr_SetString(type, message);
-  Py_XDECREF(type);
-  Py_XDECREF(module);
-}
-
-/// Hands what the engine printed to Python's logging (pydart2/messages.py). An error that is set stays so.
-inline void log_messages()
-{
-  thread_local bool importing = false; // in which the collector may free a world, which may print
-  if (importing || !messages::any())
-    return;
-  PyObject *type, *value, *traceback;
-  PyErr_Fetch(&type, &value, &traceback);
-  importing = true;
-  PyObject* module = PyImport_ImportModule("pydart2.messages");
-  importing = false;
-  for (const auto& [level, text] : messages::take()) {
-    PyObject* message = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
-    PyObject* done = module && message ? PyObject_CallMethod(module, "log", "iO", static_cast<int>(level), message) : nullptr;
-    if (done == nullptr)
-      PyErr_WriteUnraisable(module); // a handler that fails must not fail the call
-    Py_XDECREF(done);
-    Py_XDECREF(message);
-  }
-  Py_XDECREF(module);
-  PyErr_Restore(type, value, traceback);
-}
-
-/// Turns the C++ exception that is being handled into a Python one.
-inline void set_error()
-{
-  try {
-    throw;
-  } catch (const ErrorIsSet&) {
-  } catch (const Error& error) {
-    switch (error.kind()) {
-    case Kind::value: PyErr_SetString(PyExc_ValueError, error.what()); break;
-    case Kind::type: PyErr_SetString(PyExc_TypeError, error.what()); break;
-    case Kind::index: PyErr_SetString(PyExc_IndexError, error.what()); break;
-    case Kind::load: raise_own("LoadError", error.what()); break;
-    case Kind::destroyed: raise_own("DestroyedError", error.what()); break;
-    case Kind::simulation: raise_own("SimulationError", error.what()); break;
-    case Kind::engine: raise_own("PydartError", error.what()); break;
-    }
-  } catch (const std::bad_alloc&) {
-    PyErr_NoMemory();
-  } catch (const std::exception& error) {
-    raise_own("PydartError", error.what());
-  } catch (...) {
-    raise_own("PydartError", "the engine threw something unknown");
-  }
-  log_messages();
-}
 
 /// The object as a C-contiguous float64 array (new reference); null with TypeError set, naming the argument.
 inline PyArrayObject* to_array(PyObject* object, const char* what)

@@ -8,6 +8,7 @@
 #include "engine/shared_scenes.hpp"
 #include "numpy_glue.hpp"
 #include "python/last_words.hpp"
+#include "without_gil.hpp"
 %}
 
 %init %{

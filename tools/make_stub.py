@@ -131,7 +131,7 @@ def method(line: str) -> str | None:
 
 def classes(header: str) -> list[str]:
     """The stubs of a header's handle classes."""
-    text = re.sub(r"///.*|//.*", "", header)
+    text = re.sub(r"[ \t]*//.*", "", header)
     text = re.sub(r"\(([^()]*)\)", lambda m: "(" + " ".join(m.group(1).split()) + ")", text)
     text = re.sub(r"\(\s*\n\s*", "(", text)
     stubs = []

@@ -125,6 +125,22 @@ def test_armature_is_in_the_mass_matrix_and_in_the_motion() -> None:
     assert pytest.approx(0.2) == wheel.M
 
 
+def test_armature_counts_for_its_own_dof() -> None:
+    """By Jacobians: M = J_lin' m J_lin + J_ang' I J_ang without it, and its diagonal more by it."""
+    world = pydart.World(0.001)
+    arm = world.add_empty_skeleton("arm")
+    upper = arm.add_body("upper", joint="revolute", mass=1.0, inertia=np.eye(3))
+    arm.add_body("lower", parent=upper, joint="revolute", position=[0.5, 0.0, 0.0], mass=2.0, inertia=np.eye(3), armature=0.3)
+    arm.dof(0).set_armature(0.05)
+    arm.q = [0.2, -0.7]
+    expected = np.diag([0.05, 0.3])
+    for body in arm.bodynodes:
+        linear, angular = body.linear_jacobian(body.local_com()), body.angular_jacobian()
+        expected += body.m * linear.T @ linear + angular.T @ angular
+    np.testing.assert_allclose(arm.M, expected, rtol=1e-12)
+    np.testing.assert_allclose(arm.invM, np.linalg.inv(expected), rtol=1e-10)
+
+
 LANDING = """<mujoco><worldbody><geom type="plane" size="1 1 1"/><body name="base" pos="0 0 1"><freejoint/>
 <geom type="{}" size=".2 .1 .1"/><body name="leg" pos="0 0 -.1"><joint axis="0 1 0" range="-20 20"/>
 <geom type="capsule" size=".05 .1" pos="0 0 -.2"/></body></body></worldbody>{}</mujoco>"""

@@ -57,6 +57,13 @@ private:
   void update_factors(int first);
   void swap_rows(int row1, int row2);
 
+  static double dot(const double* a, const double* b, int size)
+  {
+    double sum = 0.0;
+    for (int i = 0; i < size; ++i)
+      sum += a[i] * b[i];
+    return sum;
+  }
   double& L(int row, int column) { return L_[column * stride_ + row]; }
   double A(int row, int column) const { return row > column ? A_[row][column] : A_[column][row]; }
 

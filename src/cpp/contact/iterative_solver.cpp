@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <dart/common/Console.hpp>
-#include <dart/constraint/ContactConstraint.hpp>
-#include <limits>
 #include <numeric>
 
 #include "base/parallel.hpp"
@@ -13,31 +11,12 @@ namespace pydart2 {
 
 namespace {
 
-using dart::constraint::ContactConstraint;
 using dart::dynamics::BodyNode;
 using engine::Rows;
 
 constexpr int none = Movers::none;
 /// A detector that does not see what nearly touches loses contacts whose depth is taken away.
 constexpr double least_allowance_without_gaps = 1e-4;
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-/// An impulse at a point of the world, as a wrench in a body's frame.
-Eigen::Vector6d wrench_at(const BodyNode& body, const Eigen::Vector3d& point, const Eigen::Vector3d& impulse)
-{
-  const auto& pose = body.getWorldTransform();
-  const Eigen::Vector3d place = pose.linear().transpose() * (point - pose.translation());
-  Eigen::Vector6d wrench;
-  wrench.tail<3>() = pose.linear().transpose() * impulse;
-  wrench.head<3>() = place.cross(wrench.tail<3>());
-  return wrench;
-}
-
-/// Which of a block's two parts is that of a side.
-std::size_t part_of(const std::array<Movers::Place, 2>& places, std::size_t side)
-{
-  return side == 1 && places[0].mover != none && places[0].mover != places[1].mover ? 1 : 0;
-}
 
 } // namespace
 
@@ -168,153 +147,6 @@ void IterativeSolver::place_velocities()
   system_.velocities.setZero(size);
 }
 
-void IterativeSolver::place_blocks()
-{
-  system_.blocks.clear();
-  int rows = 0;
-  std::size_t data = 0;
-  for (const auto& source : sources_) {
-    Block block;
-    block.row = rows;
-    block.data = data;
-    block.contact = source.contact != none;
-    if (block.contact)
-      block.size = contacts_[static_cast<std::size_t>(source.contact)].has_friction() ? 3 : 1;
-    else
-      block.size = static_cast<int>(constraints_[static_cast<std::size_t>(source.constraint)]->getDimension());
-    for (const std::size_t side : {0, 1})
-      if (const int mover = source.places[side].mover; mover != none) {
-        const auto part = part_of(source.places, side);
-        block.starts[part] = movers_.start(mover);
-        block.sizes[part] = movers_.dofs(mover);
-      }
-    auto& island = system_.islands[static_cast<std::size_t>(source.island)];
-    if (island.rows == 0) {
-      island.first = static_cast<int>(system_.blocks.size());
-      island.row = rows;
-    }
-    rows += block.size;
-    data += block.numbers();
-    system_.blocks.push_back(block);
-    island.last = static_cast<int>(system_.blocks.size());
-    island.rows = rows - island.row;
-  }
-  system_.terms.resize(data);
-  for (auto* numbers : {&system_.lo, &system_.hi, &system_.b, &system_.mixing})
-    numbers->resize(rows);
-}
-
-void IterativeSolver::fill(double time_step)
-{
-  for (std::size_t i = 0; i < sources_.size(); ++i)
-    if (system_.blocks[i].contact)
-      fill_contact(system_.blocks[i], sources_[i], time_step);
-    else
-      fill_constraint(system_.blocks[i], sources_[i], time_step);
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    auto& block = system_.blocks[i];
-    block.force_mixing = block.contact ? ContactConstraint::getConstraintForceMixing()
-                                       : rows_[static_cast<std::size_t>(sources_[i].constraint)].force_mixing;
-    if (block.contact)
-      block.depth = contacts_[static_cast<std::size_t>(sources_[i].contact)].depth;
-  }
-}
-
-/// Rows and right-hand sides of a contact.
-void IterativeSolver::fill_contact(const Block& block, const Source& source, double time_step)
-{
-  const auto& terms = contacts_[static_cast<std::size_t>(source.contact)];
-  const auto& point = terms.contact->point;
-  auto b = system_.b.segment(block.row, block.size);
-  b.setZero();
-  const auto is_tree = [this](const Movers::Place& place) { return place.mover != none && !movers_.free(place.mover); };
-  if (is_tree(source.places[0]) || is_tree(source.places[1]))
-    fill_tree_contact(block, source);
-  for (const std::size_t side : {0, 1}) {
-    const auto& place = source.places[side];
-    const double sign = side == 0 ? 1.0 : -1.0;
-    if (place.mover != none && movers_.free(place.mover)) {
-      const int part = static_cast<int>(part_of(source.places, side));
-      double *J = system_.J(block, part), *Y = system_.Y(block, part);
-      for (int row = 0; row < block.size; ++row, J += 6, Y += 6) {
-        movers_.point_row(place.mover, point, sign * terms.directions[static_cast<std::size_t>(row)], J, Y);
-        b[row] -= movers_.speed(place.mover, J);
-      }
-    } else if (const auto* body = terms.bodies[side]; body != nullptr && !body->getSpatialVelocity().isZero(0.0)) {
-      for (int row = 0; row < block.size; ++row)
-        b[row] -= sign * wrench_at(*body, point, terms.directions[static_cast<std::size_t>(row)]).dot(body->getSpatialVelocity());
-    }
-  }
-  if (terms.depth < 0.0) // may close its gap
-    b[0] += terms.depth / time_step;
-  else
-    b[0] = parting_speed(terms, b[0], options.split ? 0.0 : engine_correction(terms.contact->penetrationDepth, time_step));
-  for (int row = 0; row < block.size; ++row) {
-    const auto tangent = static_cast<std::size_t>(row - 1);
-    system_.lo[block.row + row] = row == 0 ? 0.0 : -terms.friction[tangent];
-    system_.hi[block.row + row] = row == 0 ? unbounded : terms.friction[tangent];
-    system_.mixing[block.row + row] = row == 0 ? 0.0 : terms.slip[tangent] / time_step;
-  }
-}
-
-/// Rows of a contact of bodies some of which are parts of trees.
-void IterativeSolver::fill_tree_contact(const Block& block, const Source& source)
-{
-  const auto& terms = contacts_[static_cast<std::size_t>(source.contact)];
-  std::fill_n(system_.J(block, 0), block.numbers(), 0.0);
-  for (int row = 0; row < block.size; ++row) {
-    std::array<Eigen::Vector6d, 2> wrenches{};
-    std::array<double*, 2> J{}, Y{};
-    for (const std::size_t side : {0, 1}) {
-      const auto part = part_of(source.places, side);
-      J[side] = system_.J(block, static_cast<int>(part)) + row * block.sizes[part];
-      Y[side] = system_.Y(block, static_cast<int>(part)) + row * block.sizes[part];
-      if (source.places[side].mover != none)
-        wrenches[side] = (side == 0 ? 1.0 : -1.0)
-                         * wrench_at(*terms.bodies[side], terms.contact->point, terms.directions[static_cast<std::size_t>(row)]);
-    }
-    movers_.wrench_row(source.places, wrenches, J, Y);
-  }
-}
-
-void IterativeSolver::fill_constraint(const Block& block, const Source& source, double time_step)
-{
-  const auto& rows = rows_[static_cast<std::size_t>(source.constraint)];
-  std::fill_n(system_.J(block, 0), block.numbers(), 0.0);
-  int dof = -1;
-  for (int row = 0; row < block.size; ++row) {
-    std::array<double*, 2> J{}, Y{};
-    for (const int part : {0, 1}) {
-      J[static_cast<std::size_t>(part)] = system_.J(block, part) + row * block.sizes[static_cast<std::size_t>(part)];
-      Y[static_cast<std::size_t>(part)] = system_.Y(block, part) + row * block.sizes[static_cast<std::size_t>(part)];
-    }
-    if (rows.kind == Rows::Kind::joint) {
-      while (!rows.joint.active[static_cast<std::size_t>(++dof)]) {
-      }
-      movers_.joint_row(source.places[0], dof, J[0], Y[0]);
-      continue;
-    }
-    const std::array<double*, 2> side_J{J[0], J[part_of(source.places, 1)]}, side_Y{Y[0], Y[part_of(source.places, 1)]};
-    std::array<Eigen::Vector6d, 2> wrenches{};
-    for (const std::size_t side : {0, 1})
-      if (source.places[side].mover != none)
-        wrenches[side] = rows.bodies.directions[side].col(row);
-    movers_.wrench_row(source.places, wrenches, side_J, side_Y);
-  }
-  double x[6], w[6] = {};
-  int findex[6] = {-1, -1, -1, -1, -1, -1};
-  dart::constraint::ConstraintInfo info{};
-  info.x = x;
-  info.lo = system_.lo.data() + block.row;
-  info.hi = system_.hi.data() + block.row;
-  info.b = system_.b.data() + block.row;
-  info.w = w;
-  info.findex = findex;
-  info.invTimeStep = 1.0 / time_step;
-  constraints_[static_cast<std::size_t>(source.constraint)]->getInformation(&info);
-  system_.mixing.segment(block.row, block.size).setZero();
-}
-
 void IterativeSolver::recall()
 {
   keys_.clear();
@@ -396,50 +228,6 @@ void IterativeSolver::keep_corrections()
     if (change.allFinite())
       corrections_.push_back({&joint, change, {}});
   });
-}
-
-void IterativeSolver::apply(double time_step)
-{
-  movers_.move_free_in_array(system_.velocities);
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    const auto& block = system_.blocks[i];
-    const auto& source = sources_[i];
-    if (block.contact) {
-      apply_contact(block, source, time_step);
-    } else if (const auto& rows = rows_[static_cast<std::size_t>(source.constraint)]; rows.kind == Rows::Kind::joint) {
-      auto& constraint = *constraints_[static_cast<std::size_t>(source.constraint)];
-      constraint.applyImpulse(system_.x.data() + block.row);
-      constraint.excite();
-    } else {
-      engine::store_impulses(*constraints_[static_cast<std::size_t>(source.constraint)], system_.x.data() + block.row);
-      for (const std::size_t side : {0, 1})
-        if (source.places[side].mover != none)
-          apply_wrench(
-              source.places[side], *rows.bodies.bodies[side],
-              rows.bodies.directions[side] * system_.x.segment(block.row, block.size));
-    }
-  }
-}
-
-void IterativeSolver::apply_contact(const Block& block, const Source& source, double time_step)
-{
-  const auto& terms = contacts_[static_cast<std::size_t>(source.contact)];
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
-  for (int row = 0; row < block.size; ++row)
-    impulse += system_.x[block.row + row] * terms.directions[static_cast<std::size_t>(row)];
-  terms.contact->force = impulse / time_step;
-  for (const std::size_t side : {0, 1})
-    if (const auto& place = source.places[side]; place.mover != none && !movers_.free(place.mover))
-      apply_wrench(place, *terms.bodies[side], wrench_at(*terms.bodies[side], terms.contact->point, side == 0 ? impulse : -impulse));
-}
-
-/// For the engine, which gives trees their velocities; those of free bodies are known.
-void IterativeSolver::apply_wrench(Movers::Place place, BodyNode& body, const Eigen::Vector6d& wrench) const
-{
-  if (movers_.free(place.mover))
-    return;
-  body.setConstraintImpulse(body.getConstraintImpulse() + wrench);
-  body.getSkeleton()->setImpulseApplied(true);
 }
 
 void IterativeSolver::move_free_bodies(double time_step)

@@ -2,14 +2,7 @@
 
 #include <dart/common/Console.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
-#include <dart/dynamics/DegreeOfFreedom.hpp>
-#include <dart/dynamics/PlaneShape.hpp>
-#include <dart/dynamics/PointMass.hpp>
-#include <dart/dynamics/ShapeNode.hpp>
-#include <dart/dynamics/SoftBodyNode.hpp>
-#include <algorithm>
 #include <cstring>
-#include <sstream>
 #include <utility>
 
 #include "base/checks.hpp"
@@ -18,242 +11,21 @@
 #include "collision/native_detector.hpp"
 #include "contact/fast_solver.hpp"
 #include "dynamics/tree_dynamics.hpp"
-#include "dynamics/weightless.hpp"
+#include "state/blow_up.hpp"
+#include "state/collision_range.hpp"
 #include "state/dof_state.hpp"
 #include "state/held_groups.hpp"
 #include "state/limits.hpp"
 #include "state/sleeping.hpp"
 #include "state/snapshot.hpp"
+#include "state/state_watch.hpp"
 
 namespace pydart2 {
 
 namespace {
 
 using dart::dynamics::BodyNode;
-using dart::dynamics::PointMass;
 using dart::dynamics::Skeleton;
-
-constexpr const char* remedy
-    = "take smaller time steps, gains or forces, and go on from world.reset() or a snapshot (world.set_blow_up(\"nan\") "
-      "lets it read NaN instead)";
-
-std::string needs_mass(const BodyNode& body)
-{
-  return "body '" + body.getName() + "' of skeleton '" + body.getSkeleton()->getName()
-         + "' moves without mass in it or below it: give it mass, or weld it";
-}
-
-/// Also false for NaN.
-bool sane(double value)
-{
-  return std::abs(value) <= check::huge;
-}
-
-bool sane(const Eigen::Vector3d& value)
-{
-  return sane(value[0]) && sane(value[1]) && sane(value[2]);
-}
-
-std::string text(double value)
-{
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-} // namespace
-
-namespace {
-
-/// What world.set_blow_up("nan") makes NaN of; other errors of a step are the user's to mend.
-class BlowUp : public Error
-{
-public:
-  explicit BlowUp(const std::string& message) : Error(Kind::simulation, message) {}
-};
-
-} // namespace
-
-[[noreturn]] static void blown_up(
-    const Skeleton& skeleton, const std::string& where, const char* what, double value, double time)
-{
-  if (const auto* body = skeleton.isMobile() ? weightless_body(skeleton) : nullptr)
-    throw BlowUp("the simulation blew up at t = " + text(time) + " s: " + needs_mass(*body) + "; " + remedy);
-  throw BlowUp(
-      "the simulation blew up at t = " + text(time) + " s: " + what + " of " + where + " in skeleton '" + skeleton.getName()
-      + "' became " + text(value) + "; " + remedy);
-}
-
-/// A skeleton's state, read where the engine keeps it, and a copy to go back to.
-class StateWatch
-{
-public:
-  StateWatch(SkeletonRecord& record) : skeleton_(*record.skeleton), structure_(record.structure), dofs_(record.dofs())
-  {
-    for (std::size_t i = 0; i < skeleton_.getNumSoftBodyNodes(); ++i)
-      for (auto* point : skeleton_.getSoftBodyNode(i)->getPointMasses())
-        points_.push_back(point);
-    saved_.resize(3 * dofs_.size() + 9 * points_.size());
-  }
-
-  int structure() const { return structure_; }
-
-  void save()
-  {
-    double* out = saved_.data();
-    for (const auto* places : {&dofs_.positions, &dofs_.velocities, &dofs_.accelerations})
-      for (const double* place : *places)
-        *out++ = *place;
-    for (const auto* point : points_)
-      for (const auto* value : {&point->getPositions(), &point->getVelocities(), &point->getAccelerations()})
-        out = std::copy(value->data(), value->data() + 3, out);
-  }
-
-  void restore()
-  {
-    const auto n = static_cast<long>(dofs_.size());
-    const Eigen::Map<const Eigen::VectorXd> saved(saved_.data(), static_cast<long>(saved_.size()));
-    // Equal numbers are a no-op in the engine and would leave caches that hold NaN.
-    skeleton_.setPositions(saved.head(n).array() + 1.0);
-    skeleton_.setPositions(saved.head(n));
-    skeleton_.setVelocities(saved.segment(n, n));
-    skeleton_.setAccelerations(saved.segment(2 * n, n));
-    long at = 3 * n;
-    for (auto* point : points_) {
-      point->setPositions(saved.segment<3>(at));
-      point->setVelocities(saved.segment<3>(at + 3));
-      point->setAccelerations(saved.segment<3>(at + 6));
-      at += 9;
-    }
-    skeleton_.clearConstraintImpulses();
-    skeleton_.setImpulseApplied(false);
-    for (auto* point : points_)
-      point->clearConstraintImpulse();
-  }
-
-  bool is_sane() const
-  {
-    for (const auto* places : {&dofs_.positions, &dofs_.velocities})
-      for (const double* place : *places)
-        if (!sane(*place))
-          return false;
-    return std::all_of(points_.begin(), points_.end(), [](const PointMass* point) {
-      return sane(point->getPositions()) && sane(point->getVelocities());
-    });
-  }
-
-  void check_positions(double time) const
-  {
-    check(dofs_.positions, "position", time);
-    check_points(&PointMass::getPositions, "position", time);
-  }
-
-  void check_velocities(double time) const
-  {
-    check(dofs_.velocities, "velocity", time);
-    check_points(&PointMass::getVelocities, "velocity", time);
-  }
-
-private:
-  void check(const std::vector<const double*>& places, const char* what, double time) const
-  {
-    bool all = true;
-    for (const double* place : places)
-      all &= sane(*place);
-    if (all)
-      return;
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (!sane(*places[i]))
-        blown_up("dof '" + skeleton_.getDof(i)->getName() + "'", what, *places[i], time);
-  }
-
-  void check_points(const Eigen::Vector3d& (PointMass::*read)() const, const char* what, double time) const
-  {
-    for (const auto* point : points_)
-      if (const auto& value = (point->*read)(); !sane(value))
-        blown_up(
-            "a point of soft body '" + point->getParentSoftBodyNode()->getName() + "'", what, value.cwiseAbs().maxCoeff(),
-            time);
-  }
-
-  [[noreturn]] void blown_up(const std::string& where, const char* what, double value, double time) const
-  {
-    pydart2::blown_up(skeleton_, where, what, value, time);
-  }
-
-  Skeleton& skeleton_;
-  int structure_;
-  const DofState& dofs_;
-  std::vector<PointMass*> points_;
-  std::vector<double> saved_;
-};
-
-namespace {
-
-StateWatch& watch(SkeletonRecord& record)
-{
-  if (!record.watch || record.watch->structure() != record.structure)
-    record.watch = std::make_shared<StateWatch>(record);
-  return *record.watch;
-}
-
-/// At most so far from its body's origin a shape is, and with ODE any point of it.
-double reach(const dart::dynamics::ShapeNode& node, bool ode)
-{
-  double far = node.getRelativeTransform().translation().cwiseAbs().sum();
-  if (ode && !node.getShape()->is<dart::dynamics::PlaneShape>())
-    far += node.getShape()->getBoundingBox().computeFullExtents().sum();
-  return far;
-}
-
-double shapes_reach(const Skeleton& skeleton, bool ode)
-{
-  double most = 0.0;
-  for (const auto* body : skeleton.getBodyNodes())
-    for (const auto* node : body->getShapeNodes())
-      if (const double far = reach(*node, ode); !(far <= most))
-        most = far;
-  return most;
-}
-
-/// Collision detection needs differences of coordinates: contacts of bodies that are too far out have normals that are
-/// not numbers. ODE ends the process where a coordinate in cells of its hash space, 1/8 m and larger, is no 32-bit integer.
-void check_range(const BodyNode& body, double far, bool ode, double time)
-{
-  const double limit = ode ? 1e8 : 1e12;
-  const auto check = [&](double distance, const std::string& what) {
-    if (!(distance <= limit))
-      throw BlowUp(
-          "the simulation left the range of the collision detector at t = " + text(time) + " s: " + what + " '"
-          + body.getName() + "' of skeleton '" + body.getSkeleton()->getName() + "' is " + text(distance)
-          + " m from the origin along an axis, the range is " + text(limit) + " m");
-  };
-  check(far, "body");
-  for (const auto* node : body.getShapeNodes())
-    check(far + reach(*node, ode), "a shape of body");
-}
-
-void check_range(const WorldRecord& record, bool ode, double time)
-{
-  constexpr double surely_within = 1e7; // of each detector's range
-  const auto check = [&](const BodyNode& body, const Eigen::Isometry3d& pose, double shapes) {
-    const double far = pose.translation().cwiseAbs().maxCoeff();
-    if (!(far + shapes <= surely_within))
-      check_range(body, far, ode, time);
-  };
-  for (std::size_t i = 0; i < record.plan.free.size(); ++i)
-    check(*record.plan.free[i].node, record.plan.free[i].pose, record.plan.free[i].reach);
-  for (const auto& item : record.plan.others) {
-    if (ode || !item->shapes_reach)
-      item->shapes_reach = shapes_reach(*item->skeleton, ode);
-    for (const auto* body : item->skeleton->getBodyNodes())
-      check(*body, body->getWorldTransform(), *item->shapes_reach);
-  }
-}
-
-} // namespace
-
-namespace {
 
 /// The exact solvers take time with the cube of the rows of a group: from here on, tens of milliseconds a step.
 constexpr int large_group = 1000;
@@ -377,45 +149,6 @@ void solve_constraints(WorldRecord& record, double time)
 
 namespace {
 
-const dart::dynamics::DegreeOfFreedom* find_fastest_dof(const WorldRecord& record)
-{
-  const dart::dynamics::DegreeOfFreedom* fastest = nullptr;
-  for (const auto& item : record.skeletons)
-    for (const auto* dof : item->skeleton->getDofs())
-      if (fastest == nullptr || !(std::abs(dof->getVelocity()) <= std::abs(fastest->getVelocity())))
-        fastest = dof;
-  return fastest;
-}
-
-/// The place to look at where the engine does not say which it is.
-std::string suspect(const WorldRecord& record)
-{
-  for (const auto& item : record.skeletons)
-    if (const auto* body = item->skeleton->isMobile() ? weightless_body(*item->skeleton) : nullptr)
-      return needs_mass(*body);
-  const auto* fastest = find_fastest_dof(record);
-  if (fastest == nullptr)
-    return "no skeleton has a dof";
-  return "the fastest dof is '" + fastest->getName() + "' of skeleton '" + fastest->getSkeleton()->getName() + "', at "
-         + text(fastest->getVelocity());
-}
-
-/// The skeletons whose state is not one any more; where all are, that of the fastest dof.
-std::vector<SkeletonRef> insane_or_fastest(const WorldRecord& record)
-{
-  std::vector<SkeletonRef> found;
-  for (const auto& item : record.plan.others)
-    if (!item->watch->is_sane())
-      found.push_back(item);
-  if (const auto i = record.plan.free.find_insane(check::huge); i < record.plan.free.size())
-    found.push_back(record.plan.owners[i]);
-  const auto* fastest = found.empty() ? find_fastest_dof(record) : nullptr;
-  for (const auto& item : record.skeletons)
-    if (fastest != nullptr && item->skeleton == fastest->getSkeleton())
-      found.push_back(item);
-  return found;
-}
-
 /// Of the time, which goes on also where nothing else can.
 void pass(WorldRecord& record)
 {
@@ -537,7 +270,6 @@ void go_back(WorldRecord& record)
 
 void advance(WorldRecord& record)
 {
-  auto& world = *record.world;
   if (record.blown_up)
     return pass(record);
   if (record.deterministic)
@@ -558,10 +290,7 @@ void advance(WorldRecord& record)
     }
     if (error.kind() != Kind::engine)
       throw;
-    throw Error(
-        Kind::simulation,
-        "the simulation blew up at t = " + text(world.getTime() + world.getTimeStep()) + " s: " + error.what() + "; " + where
-            + "; " + remedy);
+    engine_failed(record, error.what(), where);
   }
   for (const auto& item : record.plan.others)
     if (item->skeleton->isMobile()) {

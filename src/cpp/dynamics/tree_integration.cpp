@@ -1,0 +1,112 @@
+#include "dynamics/tree_joints.hpp"
+
+// How velocities and positions go on, and what is out of date then.
+
+namespace pydart2 {
+
+using namespace tree;
+
+// Ball and free joints move by the engine's code, which goes through the tree where it finds that not all is marked.
+
+void TreeDynamics::integrate_velocities(double dt)
+{
+  bool changed = false;
+  for (auto& link : links_)
+    visit(*link, [&](auto& joint) {
+      using Vector = typename SpaceOf<decltype(joint)>::Vector;
+      auto& s = state(joint);
+      if (link->kind == Kind::se3)
+        changed |= (s.mVelocities.array() != 0.0).any() || (s.mAccelerations.array() != 0.0).any();
+      else
+        changed |= assign<Vector>(s.mVelocities, s.mVelocities + s.mAccelerations * dt);
+    });
+  if (changed)
+    mark_velocities();
+  for (auto& link : links_)
+    if (link->kind == Kind::se3)
+      (link->joint->*JointOf::integrate_velocities)(dt);
+}
+
+void TreeDynamics::integrate_positions(double dt)
+{
+  bool changed = false;
+  for (auto& link : links_)
+    visit(*link, [&](auto& joint) {
+      using Vector = typename SpaceOf<decltype(joint)>::Vector;
+      auto& s = state(joint);
+      if (!link->plain_integration)
+        changed |= (s.mVelocities.array() != 0.0).any();
+      else
+        changed |= assign<Vector>(s.mPositions, s.mPositions + dt * s.mVelocities);
+    });
+  if (changed)
+    mark_positions();
+  for (auto& link : links_)
+    if (!link->plain_integration)
+      (link->joint->*JointOf::integrate_positions)(dt);
+}
+
+void TreeDynamics::mark_positions()
+{
+  mark_velocities();
+  for (auto& link : links_) {
+    Joint& joint = *link->joint;
+    BodyNode& body = *link->body;
+    joint.*JointOf::transform_dirty = joint.*JointOf::jacobian_dirty = true;
+    if (!(body.*Body::jacobian_dirty))
+      (body.*Body::mark_jacobian)();
+    if (link->entity->*EntityOf::transform_dirty)
+      continue;
+    link->entity->*EntityOf::transform_dirty = true;
+    for (Entity* other : body.*Body::others)
+      if (!(other->*EntityOf::transform_dirty && other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty)
+          || !is_unheard(*other))
+        other->dirtyTransform();
+  }
+  const auto mark = [](auto& dirty) {
+    dirty.mArticulatedInertia = dirty.mMassMatrix = dirty.mAugMassMatrix = dirty.mInvMassMatrix = dirty.mInvAugMassMatrix
+        = dirty.mGravityForces = dirty.mExternalForces = true;
+  };
+  mark(engine::SkeletonMembers::all(skeleton_));
+  for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
+    mark(engine::SkeletonMembers::tree(skeleton_, tree));
+}
+
+void TreeDynamics::mark_velocities()
+{
+  for (auto& link : links_) {
+    Joint& joint = *link->joint;
+    BodyNode& body = *link->body;
+    joint.*JointOf::velocity_dirty = joint.*JointOf::jacobian_rate_dirty = true;
+    if (!(body.*Body::jacobian_rate_dirty && body.*Body::world_jacobian_rate_dirty))
+      (body.*Body::mark_jacobian_rate)();
+    body.*Body::partial_acceleration_dirty = true;
+    if (link->entity->*EntityOf::velocity_dirty)
+      continue;
+    link->entity->*EntityOf::velocity_dirty = true;
+    for (Entity* other : body.*Body::others)
+      if (!(other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
+        other->dirtyVelocity();
+  }
+  const auto mark = [](auto& dirty) { dirty.mCoriolisForces = dirty.mCoriolisAndGravityForces = true; };
+  mark(engine::SkeletonMembers::all(skeleton_));
+  for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
+    mark(engine::SkeletonMembers::tree(skeleton_, tree));
+  mark_accelerations();
+}
+
+void TreeDynamics::mark_accelerations()
+{
+  for (auto& link : links_) {
+    Joint& joint = *link->joint;
+    joint.*JointOf::acceleration_dirty = joint.*JointOf::primary_acceleration_dirty = true;
+    if (link->entity->*EntityOf::acceleration_dirty)
+      continue;
+    link->entity->*EntityOf::acceleration_dirty = true;
+    for (Entity* other : link->body->*Body::others)
+      if (!(other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
+        other->dirtyAcceleration();
+  }
+}
+
+} // namespace pydart2
