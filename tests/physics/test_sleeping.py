@@ -197,7 +197,9 @@ def test_what_swings_stays_awake() -> None:
     """It is slow wherever it turns back; only times that follow each other count together."""
     world = World(0.005, up="z")
     pendulum = world.add_empty_skeleton("pendulum")
-    pendulum.add_body("bob", joint="revolute", axis=[0.0, 1.0, 0.0], mass=1.0, com=[0.0, 0.0, -1.0], inertia=0.1 * np.eye(3))
+    pendulum.add_body(
+        "bob", joint="revolute", axis=[0.0, 1.0, 0.0], mass=1.0, com=[0.0, 0.0, -1.0], inertia=0.1 * np.eye(3)
+    )
     world.set_sleeping(linear_speed=0.1, angular_speed=0.1)
     pendulum.q = [0.2]
     for _ in range(100):  # 20 s, about nine times to and fro

@@ -190,7 +190,9 @@ def test_the_classes_that_extend_the_engine_are_these() -> None:
 def test_the_page_names_files_that_are_there() -> None:
     """`docs/architecture.md` says where things are: whole paths, folders, and the ends of paths."""
     page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-    tops = (ROOT / top for top in ("pydart2", "src", "swig", "tests", "tools"))
+    tops = (
+        ROOT / top for top in ("benchmarks", "data", "docs", "examples", "pydart2", "src", "swig", "tests", "tools")
+    )
     paths = [str(path.relative_to(ROOT)) for top in tops for path in top.rglob("*.*")]
     named = re.findall(r"`([\w./*]+(?:/\w+|\.(?:py|cpp|hpp|i)))`", page)
     assert len(named) > 60

@@ -238,6 +238,10 @@ def test_bad_index(skel: pydart2.Skeleton, index: int) -> None:
         skel.body(index)
 
 
+def test_indices_count_from_either_end(skel: pydart2.Skeleton) -> None:
+    assert [skel.body(index) for index in range(-6, 6)] == 2 * skel.bodynodes
+
+
 @pytest.mark.parametrize("query", [1.5, None, ["hand"], b"hand"])
 def test_bad_query(skel: pydart2.Skeleton, query: Any) -> None:
     for find in (skel.body, skel.joint, skel.dof):

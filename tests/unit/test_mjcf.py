@@ -130,7 +130,9 @@ def test_armature_counts_for_its_own_dof() -> None:
     world = pydart.World(0.001)
     arm = world.add_empty_skeleton("arm")
     upper = arm.add_body("upper", joint="revolute", mass=1.0, inertia=np.eye(3))
-    arm.add_body("lower", parent=upper, joint="revolute", position=[0.5, 0.0, 0.0], mass=2.0, inertia=np.eye(3), armature=0.3)
+    arm.add_body(
+        "lower", parent=upper, joint="revolute", position=[0.5, 0.0, 0.0], mass=2.0, inertia=np.eye(3), armature=0.3
+    )
     arm.dof(0).set_armature(0.05)
     arm.q = [0.2, -0.7]
     expected = np.diag([0.05, 0.3])
