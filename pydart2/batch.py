@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2._native import BatchHandle
+from pydart2.inverse_kinematics import IKResults, Target, solve_each
 from pydart2.skel_vector import DofArray
 
 if TYPE_CHECKING:
@@ -281,6 +282,21 @@ class Batch:
         for row, contacts in zip(rows, found):
             row[: len(contacts)] = contacts
         return rows
+
+    # Inverse kinematics
+
+    def inverse_kinematics(
+        self, targets: Mapping[str, Target | ArrayLike], com: ArrayLike | None = None, **options: Any
+    ) -> IKResults:
+        """Skeleton.inverse_kinematics() in every world, on all threads, with its targets and options.
+
+        >>> found = batch.inverse_kinematics({"l_hand": hands})  # (N, 3)
+        >>> batch.q = found.q
+
+        Positions have shape (3,) for all worlds or (N, 3), poses (4, 4) or (N, 4, 4), `com` and the entries of a Target
+        likewise; `start` (ndofs,) or (N, ndofs), by default the present positions.
+        """
+        return solve_each(self._skeletons(), self.threads, targets, com, **options)
 
     # Parameters, one for each world or one for all
 

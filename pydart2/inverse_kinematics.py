@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from pydart2.skel_vector import SkelVector
+from pydart2.skel_vector import DofArray, SkelVector
 
 if TYPE_CHECKING:
     from pydart2._native import InverseKinematicsHandle
@@ -68,6 +69,28 @@ class IKResult:
         return f"[IKResult: {how}, {self.residual:.3g} m or rad left, {self.iterations} iterations]"
 
 
+@dataclass(frozen=True)
+class IKResults:
+    """What inverse kinematics found in each of N worlds; see IKResult.
+
+    Attributes
+    ----------
+    q : DofArray, shape (N, ndofs)
+    residual : shape (N,)
+    converged : shape (N,), of bool
+    restarts, iterations : shape (N,), of int
+    """
+
+    q: DofArray
+    residual: NDArray[np.float64]
+    converged: NDArray[np.bool_]
+    restarts: NDArray[np.intp]
+    iterations: NDArray[np.intp]
+
+    def __repr__(self) -> str:
+        return f"[IKResults: {np.count_nonzero(self.converged)} of {len(self.converged)} converged]"
+
+
 def solve(
     skel: Skeleton,
     targets: Mapping[str | BodyNode, Target | ArrayLike],
@@ -93,11 +116,61 @@ def solve(
         problem.set_dofs([skel.dof(dof).id for dof in dofs])
     if posture is not None:
         problem.set_posture(posture)
-    found = problem.solve(skel.q if start is None else start, tolerance, iterations, restarts, seed)
     q = skel.q
-    q[:] = found[:-4]
-    residual, converged, used, steps = found[-4:]
+    found = np.empty((1, len(q) + 4))
+    problem.solve(q if start is None else start, tolerance, iterations, restarts, seed, found)
+    q[:] = found[0, :-4]
+    residual, converged, used, steps = found[0, -4:]
     return IKResult(q, float(residual), bool(converged), int(used), int(steps))
+
+
+def solve_each(
+    skeletons: Sequence[Skeleton],
+    threads: int,
+    targets: Mapping[str, Target | ArrayLike],
+    com: ArrayLike | None = None,
+    *,
+    start: ArrayLike | None = None,
+    **options: Any,
+) -> IKResults:
+    """See Batch.inverse_kinematics(); arrays have the same shapes and units, q in rad or m."""
+    count = len(skeletons)
+    each = {body: _for_each(target, count) for body, target in targets.items()}
+    centres = None if com is None else _rows(com, count, 1)
+    starts = None if start is None else _rows(start, count, 1)
+
+    def one(i: int) -> IKResult:
+        mine: dict[str | BodyNode, Target | ArrayLike] = {body: rows[i] for body, rows in each.items()}
+        first = None if starts is None else starts[i]
+        return solve(skeletons[i], mine, None if centres is None else centres[i], start=first, **options)
+
+    with ThreadPoolExecutor(threads) as pool:
+        found = list(pool.map(one, range(count)))
+    return IKResults(
+        DofArray.of(np.array([result.q for result in found]), skeletons[0].names),
+        np.array([result.residual for result in found]),
+        np.array([result.converged for result in found]),
+        np.array([result.restarts for result in found], dtype=np.intp),
+        np.array([result.iterations for result in found], dtype=np.intp),
+    )
+
+
+def _for_each(target: Target | ArrayLike, count: int) -> list[Target | ArrayLike]:
+    """A target for each world, of what is one for all or has a row for each."""
+    if not isinstance(target, Target):
+        numbers = np.asarray(target, dtype=float)
+        return list(_rows(numbers, count, 2 if numbers.shape[-2:] == (4, 4) else 1))
+    places = [None] * count if target.position is None else _rows(target.position, count, 1)
+    turns = [None] * count if target.rotation is None else _rows(target.rotation, count, 2)
+    return [replace(target, position=place, rotation=turn) for place, turn in zip(places, turns)]
+
+
+def _rows(numbers: ArrayLike, count: int, axes: int) -> NDArray[np.float64]:
+    """One row of so many axes for each world."""
+    given = np.asarray(numbers, dtype=float)
+    if given.ndim not in (axes, axes + 1) or (given.ndim > axes and len(given) != count):
+        raise ValueError(f"give what is the same in all {count} worlds, or a row for each; got the shape {given.shape}")
+    return np.broadcast_to(given, (count, *given.shape[-axes:]))
 
 
 def _own(skel: Skeleton, body: BodyNode) -> BodyNode:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -16,6 +17,31 @@ if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
 
 _log = logging.getLogger("pydart2")
+
+
+@dataclass(frozen=True)
+class Surface:
+    """How a shape meets others. A pair of shapes has the smaller friction, the sum of the slips, and the product of the
+    restitutions.
+
+    Attributes
+    ----------
+    friction, secondary_friction : float
+        Coulomb's coefficient along `friction_direction`, and across it.
+    slip, secondary_slip : float
+        Slip compliance in the same directions, m/(N s): a force F of friction lets the surfaces creep at slip * F.
+    restitution : float
+        Coefficient of restitution, 0 to 1.
+    friction_direction : (3,) or None
+        In the shape's frame; None for any direction in the plane of the contact.
+    """
+
+    friction: float = 1.0
+    secondary_friction: float = 1.0
+    slip: float = 0.0
+    secondary_slip: float = 0.0
+    restitution: float = 0.0
+    friction_direction: tuple[float, float, float] | None = None
 
 
 class ShapeNode(BodyPart):
@@ -67,6 +93,40 @@ class ShapeNode(BodyPart):
             self._handle.set_rgba(rgba)
         else:
             _log.warning("%s is not drawn, so it has no colour to set", self)
+
+    def surface(self) -> Surface:
+        """Friction, slip and restitution; ValueError if it does not collide."""
+        friction, secondary, slip, secondary_slip = self._handle.tangential_coeffs().tolist()
+        x, y, z = self._handle.friction_direction().tolist()
+        direction = (x, y, z) if x or y or z else None
+        return Surface(friction, secondary, slip, secondary_slip, self._handle.restitution_coeff(), direction)
+
+    def set_surface(
+        self,
+        *,
+        friction: float | None = None,
+        secondary_friction: float | None = None,
+        slip: float | None = None,
+        secondary_slip: float | None = None,
+        restitution: float | None = None,
+        friction_direction: ArrayLike | None = None,
+    ) -> None:
+        """Change what is given of `surface()`; ValueError if it does not collide, or for a negative number.
+
+        `friction` and `slip` alone are the same in every direction. `friction_direction`, shape (3,), is in the shape's
+        frame; zeros take it away.
+        """
+        now = self._handle.tangential_coeffs()
+        for i, (along, across) in enumerate(((friction, secondary_friction), (slip, secondary_slip))):
+            if along is not None:
+                now[2 * i : 2 * i + 2] = along
+            if across is not None:
+                now[2 * i + 1] = across
+        self._handle.set_tangential_coeffs(now)
+        if restitution is not None:
+            self._handle.set_restitution_coeff(restitution)
+        if friction_direction is not None:
+            self._handle.set_friction_direction(friction_direction)
 
     def offset(self) -> NDArray[np.float64]:
         """Position of the shape in the body frame, shape (3,), m."""

@@ -26,3 +26,4 @@
 %long_call(pydart2::WorldHandle::check_collision)
 %long_call(pydart2::BatchHandle::step)
 %long_call(pydart2::BatchHandle::rollout)
+%long_call(pydart2::InverseKinematicsHandle::solve)

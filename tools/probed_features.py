@@ -311,7 +311,7 @@ FEATURES: dict[str, dict[str, str | None]] = {
         "PyBullet": "p.changeDynamics(r, 1, rollingFriction=0.01); p.stepSimulation()",
     },
     "round friction cone": {
-        "pydart2": None,
+        "pydart2": "w.set_constraint_solver('iterative', friction='cone'); w.step()",
         "MuJoCo": "m.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC; mujoco.mj_step(m, d)",
         "Drake": "P2 = MultibodyPlant(0.001); P2.set_discrete_contact_approximation(DiscreteContactApproximation.kSap)",
     },

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pydart2.building.skeletons import JOINTS
+from pydart2.shapenode import Surface
 
 if TYPE_CHECKING:
     from pydart2._native import MeshHandle
@@ -104,6 +105,7 @@ class ShapePart:
     collides: bool
     friction: float = 1.0
     restitution: float = 0.0
+    is_isotropic: bool = True  # no slip, and the same friction in every direction
     meshes: Callable[[], list[tuple[Array, Array]]] = list
 
     @property
@@ -295,7 +297,9 @@ def _shape_part(node: ShapeNode) -> ShapePart:
     if kind == "mesh":
         part.meshes = lambda: [_corners(shape.mesh(i)) for i in range(shape.num_meshes())]
     if handle.has_dynamics_aspect():
-        part.friction, part.restitution = handle.friction_coeff(), handle.restitution_coeff()
+        surface = node.surface()
+        part.friction, part.restitution = surface.friction, surface.restitution
+        part.is_isotropic = surface == Surface(part.friction, part.friction, restitution=part.restitution)
     return part
 
 

@@ -40,10 +40,12 @@ def uses(link: LinkPart, kinds: tuple[str, ...], losses: Losses) -> Iterator[Use
 
 
 def note_surfaces(link: LinkPart, losses: Losses, friction: bool = False) -> None:
-    """Note friction, unless it is held, and restitution of the shapes."""
+    """Note friction, unless it is held, slip and restitution of the shapes."""
     for shape in link.shapes:
         if shape.collides and shape.friction != 1.0 and not friction:
             losses.add("friction coefficients", link.name)
+        if shape.collides and not shape.is_isotropic:
+            losses.add("slip, secondary friction and its direction", link.name)
         if shape.collides and shape.restitution != 0.0:
             losses.add("restitution coefficients", link.name)
 

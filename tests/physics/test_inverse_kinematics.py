@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from pydart2 import Skeleton, Target, World
+from pydart2 import Batch, Skeleton, Target, World
 
 ATLAS = "./data/sdf/atlas/atlas_v3_no_head.sdf"
 
@@ -179,3 +179,27 @@ def test_what_does_not_fit_is_refused() -> None:
     for targets, options, text in bad:
         with pytest.raises(ValueError, match=text):
             arm.inverse_kinematics(targets, **options)
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_in_batches(threads: int) -> None:
+    """As in each world alone, bit for bit; what is one for all serves all."""
+    arm, rng = ur5e(), np.random.default_rng(4)
+    arm.q = rng.uniform(-1.0, 1.0, 6)
+    batch = Batch(arm.world, 5, threads=threads)
+    starts = rng.uniform(-1.0, 1.0, (5, 6))
+    arm.q = starts[0]
+    goals = np.array([arm.body("wrist_3_link").T] * 5)
+    goals[:, :3, 3] += rng.uniform(-0.02, 0.02, (5, 3))
+    before = batch.q
+    found = batch.inverse_kinematics({"wrist_3_link": goals}, start=starts, seed=1)
+    assert repr(found) == "[IKResults: 5 of 5 converged]" and found.residual.max() < 1e-6
+    for goal, start, q in zip(goals, starts, found.q):
+        assert_allclose(q, arm.inverse_kinematics({"wrist_3_link": goal}, start=start, seed=1).q, atol=0.0)
+    assert_allclose(batch.q, before, atol=0.0)
+    point = Target(position=goals[:, :3, 3], offset=(0.0, 0.1, 0.0))
+    batch.q = batch.inverse_kinematics({"wrist_3_link": point}).q
+    places = batch.T("wrist_3_link") @ [0.0, 0.1, 0.0, 1.0]
+    assert_allclose(places[:, :3], goals[:, :3, 3], atol=1e-6)
+    with pytest.raises(ValueError, match="all 5 worlds, or a row for each; got the shape"):
+        batch.inverse_kinematics({"wrist_3_link": goals[:4]})

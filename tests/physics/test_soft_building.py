@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from pydart2 import Batch, ExportError, Skeleton, World
 from pydart2.building import solids
 from pydart2.building.skins import Skin
+from pydart2.shapenode import Surface
 from pydart2.softbody import SoftBodyNode
 
 Array = NDArray[np.float64]
@@ -150,7 +151,7 @@ def test_copies_go_on_alike(copied: Callable[[World], World]) -> None:
     assert numbers(other) == numbers(world)
     node, same = (w.skeletons[2].bodynodes[0].shapenodes[0] for w in (world, other))
     assert node._handle.rgba().tolist() == same._handle.rgba().tolist() == [1.0, 0.0, 0.0, 1.0]
-    assert node._handle.friction_coeff() == same._handle.friction_coeff() == 0.3
+    assert node.surface() == same.surface() == Surface(0.3, 0.3)
 
 
 def test_snapshots_have_the_points() -> None:

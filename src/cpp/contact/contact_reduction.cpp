@@ -119,6 +119,32 @@ std::vector<std::size_t> FacePairs::spare() const
 
 } // namespace
 
+namespace {
+
+/// Lets those contacts of two shapes that stay slip as much as all would have.
+void share_slip(ConstrainedGroup& group, const std::vector<ConstraintBasePtr>& spare)
+{
+  using Shapes = std::pair<dart::collision::CollisionObject*, dart::collision::CollisionObject*>;
+  std::map<Shapes, std::array<double, 2>> counts; // all, and those that go
+  const auto of = [&](const dart::collision::Contact& contact) -> auto& {
+    return counts[{contact.collisionObject1, contact.collisionObject2}];
+  };
+  for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
+    if (const auto* contact = engine::contact(*group.getConstraint(i)))
+      ++of(*contact)[0];
+  for (const auto& constraint : spare)
+    ++of(*engine::contact(*constraint))[1];
+  for (std::size_t i = 0; i < group.getNumConstraints(); ++i) {
+    const auto constraint = group.getConstraint(i);
+    if (const auto* contact = engine::contact(*constraint)) {
+      const auto [all, gone] = of(*contact);
+      engine::scale_slip(*constraint, (all - gone) / all);
+    }
+  }
+}
+
+} // namespace
+
 void keep_extremal_contacts(ConstrainedGroup& group)
 {
   FacePairs pairs;
@@ -134,6 +160,8 @@ void keep_extremal_contacts(ConstrainedGroup& group)
   std::vector<ConstraintBasePtr> spare;
   for (const auto number : pairs.spare())
     spare.push_back(group.getConstraint(number));
+  if (!spare.empty())
+    share_slip(group, spare);
   for (const auto& constraint : spare)
     group.removeConstraint(constraint);
 }

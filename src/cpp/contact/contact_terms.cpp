@@ -106,9 +106,9 @@ ContactTerms ContactReader::read(dart::collision::Contact& contact, const native
   terms.bodies = {a.body, b.body};
   terms.free = {a.free, b.free};
   terms.directions = basis(contact.normal, first);
-  for (const std::size_t i : {0, 1}) {
-    terms.friction[i] = std::min(a.friction[i], b.friction[i]);
-    terms.slip[i] = a.slip[i] + b.slip[i];
+  for (const std::size_t i : {0, 1}) { // the first tangent lies across the first direction
+    terms.friction[1 - i] = std::min(a.friction[i], b.friction[i]);
+    terms.slip[1 - i] = a.slip[i] + b.slip[i];
   }
   terms.restitution = a.restitution * b.restitution;
   terms.depth = contact.penetrationDepth;

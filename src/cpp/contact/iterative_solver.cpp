@@ -42,11 +42,11 @@ bool IterativeSolver::knows(const dart::constraint::ConstraintBase& constraint)
 
 void IterativeSolver::solve(double time_step, bool warm, bool reduce, bool doubt)
 {
-  share_slip(contacts_);
   if (doubt)
     doubt_depths(contacts_);
   if (reduce)
     keep_extremal_contacts(contacts_);
+  share_slip(contacts_);
   find_sources();
   movers_.prepare();
   find_islands();

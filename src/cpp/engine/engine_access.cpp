@@ -161,6 +161,13 @@ void scale_error(ConstraintBase& constraint, double factor)
     distance->scale_error(factor);
 }
 
+void scale_slip(ConstraintBase& constraint, double factor)
+{
+  auto& contact = dynamic_cast<ContactConstraint&>(constraint);
+  contact.*member(PrimarySlip()) *= factor;
+  contact.*member(SecondarySlip()) *= factor;
+}
+
 void store_impulses(ConstraintBase& constraint, const double* impulses)
 {
   if (auto* ball = dynamic_cast<Ball*>(&constraint))

@@ -63,6 +63,9 @@ void set_target(dart::constraint::ConstraintBase& constraint, const Eigen::Isome
 /// Scales the error that a ball or weld joint or a distance constraint has found, and is about to reduce.
 void scale_error(dart::constraint::ConstraintBase& constraint, double factor);
 
+/// Scales the slip compliance of a contact, which the engine has multiplied by the number of contacts of its two shapes.
+void scale_slip(dart::constraint::ConstraintBase& constraint, double factor);
+
 /// Lets a ball or weld joint or a distance constraint know the impulses of its rows, as its applyImpulse() does, and does
 /// not apply them.
 void store_impulses(dart::constraint::ConstraintBase& constraint, const double* impulses);

@@ -76,10 +76,16 @@ void InverseKinematicsHandle::set_posture(const VectorIn& posture)
   posture_ = posture.eigen();
 }
 
-void InverseKinematicsHandle::solve(
-    const VectorIn& start, double tolerance, long iterations, long restarts, long seed, Output& out) const
+Busy InverseKinematicsHandle::claim() const
 {
-  auto& skel = *skeleton_;
+  skeleton_.get(); // refuses one that has changed
+  return Busy(*skeleton_.world);
+}
+
+void InverseKinematicsHandle::solve(
+    const VectorIn& start, double tolerance, long iterations, long restarts, long seed, const MatrixOut& found) const
+{
+  auto& skel = *skeleton_.skeleton->skeleton;
   check::size(start.size, moves_.size(), "positions to start from");
   check::finite(start, "positions to start from");
   check::positive(tolerance, "tolerance");
@@ -91,7 +97,8 @@ void InverseKinematicsHandle::solve(
       tolerance, static_cast<int>(iterations), static_cast<int>(restarts), static_cast<unsigned>(seed)};
   const auto result = InverseKinematics(skel, targets_, moves_)
                           .solve(start.eigen(), posture_.size() > 0 ? &posture_ : nullptr, options);
-  auto packed = vector(out, result.q.size() + 4);
+  check::size(found.rows * found.cols, moves_.size() + 4, "what is found");
+  Eigen::Map<Eigen::VectorXd> packed(found.data, result.q.size() + 4);
   packed << result.q, result.residual, result.converged, result.restarts, result.iterations;
 }
 

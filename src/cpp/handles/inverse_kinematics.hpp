@@ -26,8 +26,12 @@ public:
   void set_dofs(const VectorIn& indices);
   void set_posture(const VectorIn& posture);
 
-  /// [q, residual, converged, restarts, iterations]. The skeleton stays as it is.
-  void solve(const VectorIn& start, double tolerance, long iterations, long restarts, long seed, Output& out) const;
+  /// Its world, for solve(), whose caller holds the claim.
+  Busy claim() const;
+
+  /// Writes one row, [q, residual, converged, restarts, iterations]. The skeleton stays as it is.
+  void solve(
+      const VectorIn& start, double tolerance, long iterations, long restarts, long seed, const MatrixOut& found) const;
 
 private:
   Part<dart::dynamics::Skeleton, dart::dynamics::Skeleton*> skeleton_; // SkeletonRecord owns it

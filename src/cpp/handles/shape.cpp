@@ -1,5 +1,7 @@
 #include "handles/shape.hpp"
 
+#include <algorithm>
+#include <array>
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/CapsuleShape.hpp>
 #include <dart/dynamics/ConeShape.hpp>
@@ -312,11 +314,6 @@ DynamicsAspect& ShapeNodeHandle::dynamics()
   return std::as_const(*this).dynamics();
 }
 
-double ShapeNodeHandle::friction_coeff() const
-{
-  return dynamics().getFrictionCoeff();
-}
-
 void ShapeNodeHandle::set_friction_coeff(double coefficient)
 {
   check::not_negative(coefficient, "friction coefficient");
@@ -332,6 +329,39 @@ void ShapeNodeHandle::set_restitution_coeff(double coefficient)
 {
   check::not_negative(coefficient, "restitution coefficient");
   dynamics().setRestitutionCoeff(coefficient);
+}
+
+Eigen::Vector4d ShapeNodeHandle::tangential_coeffs() const
+{
+  const auto& surface = dynamics();
+  return {
+      surface.getPrimaryFrictionCoeff(),
+      surface.getSecondaryFrictionCoeff(),
+      std::max(surface.getPrimarySlipCompliance(), 0.0), // -1 stands for the engine's default, 0
+      std::max(surface.getSecondarySlipCompliance(), 0.0)};
+}
+
+void ShapeNodeHandle::set_tangential_coeffs(const Eigen::Vector4d& coefficients)
+{
+  const std::array<const char*, 4> names{"friction", "secondary_friction", "slip", "secondary_slip"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    check::not_negative(coefficients[static_cast<long>(i)], names[i]);
+  auto& surface = dynamics();
+  surface.setPrimaryFrictionCoeff(coefficients[0]);
+  surface.setSecondaryFrictionCoeff(coefficients[1]);
+  surface.setPrimarySlipCompliance(coefficients[2]);
+  surface.setSecondarySlipCompliance(coefficients[3]);
+}
+
+Eigen::Vector3d ShapeNodeHandle::friction_direction() const
+{
+  return dynamics().getFirstFrictionDirection();
+}
+
+void ShapeNodeHandle::set_friction_direction(const Eigen::Vector3d& direction)
+{
+  check::finite(VectorIn{direction.data(), direction.size()}, "friction_direction");
+  dynamics().setFirstFrictionDirection(direction);
 }
 
 } // namespace pydart2

@@ -118,10 +118,15 @@ public:
   Eigen::Matrix4d world_transform() const;
 
   /// Of one that takes part in contacts; ValueError otherwise.
-  double friction_coeff() const;
   void set_friction_coeff(double coefficient);
   double restitution_coeff() const;
   void set_restitution_coeff(double coefficient);
+  /// Friction coefficients along the first direction and across it, then slip compliances likewise, m/(N s).
+  Eigen::Vector4d tangential_coeffs() const;
+  void set_tangential_coeffs(const Eigen::Vector4d& coefficients);
+  /// The first direction, in the shape's frame; zero for one that the engine chooses for each contact.
+  Eigen::Vector3d friction_direction() const;
+  void set_friction_direction(const Eigen::Vector3d& direction);
 
 private:
   dart::dynamics::DynamicsAspect& dynamics() const;

@@ -142,6 +142,21 @@ void visit_geometry(Archive& archive, Shape& any)
     visit_spheres(archive, *hull);
 }
 
+void visit_slip(Archive& archive, DynamicsAspect& aspect)
+{
+  const bool any = aspect.getPrimarySlipCompliance() > 0.0 || aspect.getSecondarySlipCompliance() > 0.0
+                   || !aspect.getFirstFrictionDirection().isZero(0.0);
+  if (!archive.part("slip and direction of friction", any))
+    return;
+  archive.number(
+      [&] { return aspect.getPrimarySlipCompliance(); }, [&](double value) { aspect.setPrimarySlipCompliance(finite(value)); });
+  archive.number(
+      [&] { return aspect.getSecondarySlipCompliance(); }, [&](double value) { aspect.setSecondarySlipCompliance(finite(value)); });
+  archive.vector(
+      [&] { return aspect.getFirstFrictionDirection(); },
+      [&](Vector direction) { aspect.setFirstFrictionDirection(finite(direction)); });
+}
+
 void visit_contact(Archive& archive, DynamicsAspect& aspect)
 {
   archive.number(
@@ -149,6 +164,7 @@ void visit_contact(Archive& archive, DynamicsAspect& aspect)
   archive.number(
       [&] { return aspect.getSecondaryFrictionCoeff(); }, [&](double value) { aspect.setSecondaryFrictionCoeff(not_negative(value)); });
   archive.number([&] { return aspect.getRestitutionCoeff(); }, [&](double value) { aspect.setRestitutionCoeff(not_negative(value)); });
+  visit_slip(archive, aspect);
 }
 
 } // namespace
