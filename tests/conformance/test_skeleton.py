@@ -354,7 +354,8 @@ def test_forces(cubes: World) -> None:
     force = np.array([0, 0, 0, 2.0, 0, 0])
     cube.set_forces(force)
     assert (cube.forces() == force).all() and (cube.tau == force).all()
-    cube.tau[3] = 9.0  # a copy
+    tau = cube.tau
+    tau[3] = 9.0  # a copy
     assert (cube.tau == force).all()
     cubes.step(3)  # acts in the first step only
     assert cube.dq[3] == pytest.approx(0.001 * 2.0 / cube.m)

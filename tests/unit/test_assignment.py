@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import pickle
 import re
+import sys
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -158,3 +160,24 @@ def test_the_originals_names_are_all_there() -> None:
             n for n in names if any(callable(v := getattr(c, n, None)) or isinstance(v, property) for c in classes)
         }
         assert in_the_way == ORIGINAL[name]
+
+
+@pytest.mark.skipif(sys.version_info >= (3, 14), reason="Python 3.14 borrows what local variables hold")
+def test_what_is_set_in_a_lost_copy_is_said(robot: Any) -> None:
+    for lost in (
+        lambda: exec("robot.q[0] = 1.0", {"robot": robot}),
+        lambda: exec("robot.q['back_bkz'] += 1.0", {"robot": robot}),
+    ):
+        with pytest.warns(UserWarning, match=r"a copy that is lost: q = robot\.q"):
+            lost()
+    assert not robot.q.any()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        q = robot.q
+        q[0] = q["back_bkz"] = 0.1
+        q[3:][0] = 0.2  # a view: q has it
+        robot.q = q
+        robot.q += 0.1
+        kept = {"q": robot.q}
+        kept["q"][1] = 0.3
+    np.testing.assert_allclose(robot.q[[0, 3, 1]], [0.2, 0.3, 0.1])

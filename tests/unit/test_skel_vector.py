@@ -345,7 +345,8 @@ def test_bad_construction(skel: pydart2.Skeleton) -> None:
 
 
 def test_reads_are_copies(skel: pydart2.Skeleton) -> None:
-    skel.q["hinge0"] = 5.0
+    q = skel.q
+    q["hinge0"] = 5.0
     assert skel.q["hinge0"] == 0.0
 
 

@@ -103,9 +103,25 @@ PyObject* subscript(PyObject* self, PyObject* key)
   return result;
 }
 
+/// Says so if nobody can see what is set, as in `robot.q[0] = 1`: the interpreter holds the only reference, to numbers of
+/// its own. (From Python 3.14 on this cannot be told, as local variables are borrowed.)
+bool warn_if_lost(PyObject* self)
+{
+  if (PY_VERSION_HEX >= 0x030e0000 || Py_REFCNT(self) > 1 || PyArray_BASE(reinterpret_cast<PyArrayObject*>(self)) != nullptr)
+    return true;
+  return PyErr_WarnEx(
+             PyExc_UserWarning,
+             "this sets an entry of a copy that is lost: q = robot.q, q['knee'] = 0.4, robot.q = q, or "
+             "robot.set_positions({'knee': 0.4})",
+             1)
+         == 0;
+}
+
 int assign_subscript(PyObject* self, PyObject* key, PyObject* value)
 {
   const auto set = PyArray_Type.tp_as_mapping->mp_ass_subscript;
+  if (!warn_if_lost(self))
+    return -1;
   PyObject* names = valid_names(self);
   if (names == nullptr || (axes_of(self) == 1 && is_int(key)))
     return set(self, key, value);
