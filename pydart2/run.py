@@ -155,7 +155,7 @@ class Run:
             [len(frame) for frame in rows],
         )
         named: dict[str, Any] = dict(zip(_PARTS, parts, strict=True))
-        with open(path, "wb") as file:
+        with open(os.fspath(path), "wb") as file:  # a number would be a file descriptor
             np.savez_compressed(file, **named)
 
     @staticmethod

@@ -72,7 +72,7 @@ class Snapshot:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write it to an ``.npz`` file, without pickled objects."""
-        with open(path, "wb") as file:
+        with open(os.fspath(path), "wb") as file:  # a number would be a file descriptor
             np.savez(file, version=VERSION, model=self.model, values=self.values, contacts=self.contacts)
 
     @staticmethod

@@ -5,7 +5,8 @@
 The humanoid has DART's published figures: each body is a uniform box, for its inertia as for
 collisions.  Left and right limbs are mirror images, so a limb is stated once, for the left side.
 Joints are damped about half as much as keeps their limb from swinging: without any the limp humanoid
-never comes to rest, and in one of four falls a forearm spins until a step of 1 ms is too long.
+never comes to rest, and in one of four falls a forearm spins until a step of 1 ms is too long.  Damping
+alone lets what gravity hardly turns go on slowly for minutes, so joints have dry friction, too.
 What is drawn comes from mesh_human.py.  y points up, x forward and z to the right.  Equal input gives
 equal bytes.
 """
@@ -144,6 +145,7 @@ DAMPING = {
     "forearm": 0.15,
     "hand": 0.02,
 }
+LEAST_FRICTION, KNEE_FRICTION = 1.0, 0.3  # N m; of other joints as much as their damping at 1 rad/s
 DOFS = {"free": 6, "euler": 3, "universal": 2, "revolute": 1}
 AXES = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
@@ -158,12 +160,14 @@ def frame_text(part: Part) -> list[Lines]:
     """What a joint says about its axes and where it starts."""
     if part.kind == "free":
         return []
-    damping = block("dynamics", leaf("damping", DAMPING[part.name]))
+    damping = DAMPING[part.name]
+    friction = KNEE_FRICTION if part.name == "shin" else max(damping, LEAST_FRICTION)
+    dynamics = block("dynamics", leaf("damping", damping), leaf("friction", friction))
     names = ("axis", "axis2", "axis3")
     if part.kind == "euler":
-        axes = [leaf("axis_order", part.axes), *(block(name, damping) for name in names)]
+        axes = [leaf("axis_order", part.axes), *(block(name, dynamics) for name in names)]
     else:
-        axes = [block(name, leaf("xyz", text(AXES[axis])), damping) for name, axis in zip(names, part.axes)]
+        axes = [block(name, leaf("xyz", text(AXES[axis])), dynamics) for name, axis in zip(names, part.axes)]
     start = [part.start] + [0.0] * (DOFS[part.kind] - 1)
     return [*axes, leaf("init_pos", text(start))] if part.start else axes
 

@@ -52,8 +52,9 @@ def _join(leader: LinkPart, others: list[LinkPart], losses: Losses) -> None:
         poses[id(link)] = poses[id(link.parent)] @ link.in_parent @ inverse(link.in_link)
     links = [leader, *others]
     mass = sum(link.mass for link in links)
+    weights = [link.mass if mass > 0.0 else 1.0 for link in links]
     coms = [poses[id(link)][:3, :3] @ link.com + poses[id(link)][:3, 3] for link in links]
-    com = np.average(coms, axis=0, weights=[link.mass for link in links])
+    com = np.average(coms, axis=0, weights=weights)
     inertia = np.zeros((3, 3))
     for link, place in zip(links, coms, strict=True):
         turn, away = poses[id(link)][:3, :3], place - com

@@ -140,7 +140,8 @@ def falls(starts: range, dt: float, seconds: float) -> tuple[int, int]:
 @pytest.mark.parametrize(("count", "seconds"), [(int(os.environ.get("LIMP_STARTS", "1000")), 5.0), (20, 60.0)])
 @pytest.mark.parametrize("dt", [1e-3, 2e-3])
 def test_a_limp_human_falls_down_and_lies(dt: float, count: int, seconds: float) -> None:
-    """None blows up. A joint that gravity hardly turns goes on slowly, so that some are not still by then."""
+    """None blows up, and nearly all lie still for the last 2 s: of 5 s, a few tip over once more after the third."""
     blown, still = falls(range(count), dt, seconds)
     print(f"{count} falls of {seconds:g} s at {1e3 * dt:g} ms: {blown} blew up, {still} lie still for the last 2 s")
     assert blown == 0
+    assert still >= 0.9 * count

@@ -159,6 +159,18 @@ def test_what_cannot_be_held_is_refused() -> None:
         shapes.skeleton("cone skeleton").to_mjcf()
 
 
+def test_moments_of_what_has_no_mass_are_refused_too() -> None:
+    """Two bodies that are welded together, neither of which has a mass."""
+    body = (
+        '<link name="{}"><inertial><mass value="0"/><inertia ixx="1" iyy="1" izz="5" ixy="0" ixz="0" iyz="0"/>'
+        "</inertial></link>"
+    )
+    weld = '<joint name="weld" type="fixed"><parent link="a"/><child link="b"/></joint>'
+    skel = pydart.World(0.001).add_skeleton(f'<robot name="r">{body.format("a")}{body.format("b")}{weld}</robot>')
+    with pytest.raises(pydart.ExportError, match="principal moments of inertia 2, 2, 10"):
+        skel.to_mjcf()
+
+
 def test_what_is_lost_is_said_once(caplog: pytest.LogCaptureFixture) -> None:
     skel = robot("revolute")
     skel.dofs[0].set_position_lower_limit(-1.0)

@@ -137,6 +137,19 @@ def test_snapshots_are_values(tmp_path: Path) -> None:
     assert snapshot != world.snapshot() and snapshot != "another thing"
 
 
+def test_numbers_are_no_paths(tmp_path: Path) -> None:
+    """To open() a number is a file descriptor, which it writes to and closes: 1 is that of all that is printed."""
+    world = pydart2.World(0.001, "skel/cubes.skel")
+    world.step(2)
+    with open(tmp_path / "mine.txt", "wb") as mine:
+        assert world.recording is not None
+        for save in (world.snapshot().save, world.recording.run.save):
+            with pytest.raises(TypeError):
+                save(mine.fileno())  # type: ignore[arg-type]
+        mine.write(b"still open")
+    assert (tmp_path / "mine.txt").read_bytes() == b"still open"
+
+
 def test_save_and_load(tmp_path: Path) -> None:
     snapshot = moving("cubes", 0).snapshot()
     path = tmp_path / "snapshot.npz"
