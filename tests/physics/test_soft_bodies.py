@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -66,3 +68,44 @@ def test_forces_add_up_and_are_kept_with_the_state() -> None:
     assert_allclose(after, other.point_world_positions(), atol=1e-13)
     with pytest.raises(ValueError, match="forces"):
         body.add_point_forces(forces[1:])
+
+
+@pytest.mark.parametrize("solver", ["fast", "dart", "iterative"])
+@pytest.mark.parametrize("detector", ["fcl", "bullet"])
+def test_fixed_bodies_touch(detector: str, solver: str) -> None:
+    """A fixed body with a skin on a fixed body; beside them what moves goes on."""
+    world = World(0.001)
+    world.set_collision_detector(detector)
+    world.set_constraint_solver(solver)
+    world.add_box([1.0, 1.0, 1.0], fixed=True)
+    soft = world.add_soft_box([0.3, 0.3, 0.3], 1.0, [0.0, 0.6, 0.0], fixed=True)
+    ball = world.add_sphere(0.1, 1.0, [0.0, 5.0, 0.0])
+    world.step(100)
+    assert len(world.contacts_between(soft, world.skeletons[0]).points) > 0
+    assert ball.dq[4] == pytest.approx(-9.81 * 0.1)
+
+
+SOFT_ON_BOX = """
+<skel version="1.0"><world name="world">
+  <physics><time_step>0.001</time_step><gravity>0 -9.81 0</gravity>
+    <collision_detector>{}</collision_detector></physics>
+  <skeleton name="floor"><body name="floor"><transformation>0 -0.35 0 0 0 0</transformation>
+    <collision_shape><geometry><box><size>4 0.5 4</size></box></geometry></collision_shape></body>
+    <joint type="weld" name="floor joint"><parent>world</parent><child>floor</child></joint></skeleton>
+  <skeleton name="soft"><body name="soft"><inertia><mass>0.5</mass></inertia>
+    <soft_shape><total_mass>0.5</total_mass><geometry><box><size>0.2 0.2 0.2</size><frags>3 3 3</frags></box></geometry>
+    <kv>100</kv><ke>10</ke><damp>1</damp></soft_shape></body>
+    <joint type="free" name="soft joint"><parent>world</parent><child>soft</child></joint></skeleton>
+</world></skel>"""
+
+
+def test_skins_rest_on_what_fcl_takes_for_a_box(tmp_path: Path) -> None:
+    """As on a box of triangles, though FCL turns that pair round, and the engine its face and normal with it."""
+    heights = {}
+    for detector in ("fcl", "fcl_mesh"):
+        path = tmp_path / f"{detector}.skel"
+        path.write_text(SOFT_ON_BOX.format(detector))
+        world = World(0.001, path)
+        world.step(1000)
+        heights[detector] = world.skeletons[1].C[1]
+    assert heights["fcl"] == pytest.approx(heights["fcl_mesh"], abs=0.02)

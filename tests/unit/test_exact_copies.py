@@ -145,3 +145,16 @@ def test_the_iterative_solver_remembers_groups_with_soft_bodies_too() -> None:
     world.restore(snapshot)
     world.step(100)
     np.testing.assert_array_equal(copied.x, world.x)
+
+
+def test_copies_have_the_skins_that_bullet_has() -> None:
+    """Skins that another detector has pressed in before."""
+    world = pydart2.World(0.001, "skel/softBodies.skel")
+    world.step(300)
+    world.set_collision_detector("bullet")
+    world.step(40)
+    copied = world.clone()
+    for _ in range(20):
+        world.step(2)
+        copied.step(2)
+        np.testing.assert_array_equal(copied.x, world.x)

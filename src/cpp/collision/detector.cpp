@@ -1,6 +1,8 @@
 #include "collision/detector.hpp"
 
 #include <algorithm>
+#include <dart/dynamics/SoftBodyNode.hpp>
+#include <dart/dynamics/SoftMeshShape.hpp>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -68,6 +70,18 @@ void replace_detector(ConstraintSolver& solver)
 
 namespace {
 
+/// Bullet keeps the skin of a soft body as it was when its object was made, from a mesh that other detectors bring up to
+/// date: that of a copy is made from the points where they are, as the original's is then, too.
+void renew_bullet(ConstraintSolver& solver)
+{
+  for (const auto& skeleton : solver.getSkeletons())
+    for (std::size_t i = 0; i < skeleton->getNumSoftBodyNodes(); ++i)
+      for (auto* node : skeleton->getSoftBodyNode(i)->getShapeNodes())
+        if (auto* skin = dynamic_cast<dart::dynamics::SoftMeshShape*>(node->getShape().get()))
+          skin->update();
+  use_detector(solver, solver.getCollisionDetector()->cloneWithoutCollisionObjects());
+}
+
 void renew_fcl(ConstraintSolver& solver, bool shapes_changed)
 {
   const auto& skeletons = solver.getSkeletons();
@@ -93,7 +107,7 @@ void renew_detector(ConstraintSolver& solver, bool shapes_changed)
   const auto detector = solver.getCollisionDetector();
   const auto group = solver.getCollisionGroup();
   if (detector->getType() == "bullet")
-    use_detector(solver, detector->cloneWithoutCollisionObjects());
+    renew_bullet(solver);
   if (detector->getType() == "dart" || detector->getType() == "ode")
     use_detector(solver, detector); // their pairs are in the order in which the shapes came
   if (detector->getType() == "fcl")

@@ -1,5 +1,6 @@
 #include "collision/fcl_detector.hpp"
 
+#include <dart/collision/fcl/FCLCollisionGroup.hpp>
 #include <dart/collision/fcl/FCLCollisionObject.hpp>
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/ConeShape.hpp>
@@ -228,6 +229,49 @@ public:
   }
 };
 
+/// FCL balances a new tree at its first object, which moves on the place where the next balancing begins, and one that was
+/// emptied not: its pairs would come in another order.
+class Group : public FCLCollisionGroup
+{
+public:
+  using FCLCollisionGroup::FCLCollisionGroup;
+
+protected:
+  void removeAllCollisionObjectsFromEngine() override
+  {
+    FCLCollisionGroup::removeAllCollisionObjectsFromEngine();
+    emptied_ = true;
+  }
+
+  void addCollisionObjectToEngine(CollisionObject* object) override
+  {
+    FCLCollisionGroup::addCollisionObjectToEngine(object);
+    if (std::exchange(emptied_, false))
+      updateCollisionGroupEngineData();
+  }
+
+private:
+  bool emptied_ = false;
+};
+
+bool names_no_face(const CollisionObject& object, int face)
+{
+  const auto* skin = dynamic_cast<const SoftMeshShape*>(object.getShape().get());
+  return skin != nullptr && (face < 0 || static_cast<std::size_t>(face) >= skin->getSoftBodyNode()->getNumFaces());
+}
+
+/// FCL turns a pair of a simple shape and a mesh round; the engine then takes the one's face and normal for the other's.
+void turn_back(CollisionResult& result)
+{
+  for (std::size_t i = 0; i < result.getNumContacts(); ++i) {
+    auto& contact = result.getContact(i);
+    if (names_no_face(*contact.collisionObject1, contact.triID1) || names_no_face(*contact.collisionObject2, contact.triID2)) {
+      std::swap(contact.triID1, contact.triID2);
+      contact.normal = -contact.normal;
+    }
+  }
+}
+
 bool fcl_does(ShapeKind a, ShapeKind b)
 {
   const auto misses = [](ShapeKind kind) {
@@ -248,6 +292,19 @@ std::shared_ptr<FclDetector> FclDetector::create()
 std::shared_ptr<CollisionDetector> FclDetector::cloneWithoutCollisionObjects() const
 {
   return create();
+}
+
+std::unique_ptr<CollisionGroup> FclDetector::createCollisionGroup()
+{
+  return std::make_unique<Group>(shared_from_this());
+}
+
+bool FclDetector::collide(CollisionGroup* group, const CollisionOption& option, CollisionResult* result)
+{
+  const bool any = CompletedDetector::collide(group, option, result);
+  if (result != nullptr && getPrimitiveShapeType() == PRIMITIVE)
+    turn_back(*result);
+  return any;
 }
 
 std::unique_ptr<CollisionObject> FclDetector::createCollisionObject(const ShapeFrame* frame)

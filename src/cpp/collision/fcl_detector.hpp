@@ -6,16 +6,24 @@
 
 namespace pydart2 {
 
-/// The engine's detector with FCL, but for four things. Equal shapes of all worlds share the tree of their triangles,
+/// The engine's detector with FCL, but for six things. Equal shapes of all worlds share the tree of their triangles,
 /// which is most of what a robot takes in memory. A shape that has changed keeps its body: the engine's own refresh
 /// forgets to say whose shape it is, and the next contact reads memory that was never set. And cones and pyramids
-/// are where they belong: the engine makes their triangles at a pose that was never set. And it is completed.
+/// are where they belong: the engine makes their triangles at a pose that was never set. Skins of soft bodies meet FCL's own
+/// boxes and balls at the right face. A group that was emptied is as a new one. And it is completed.
 class FclDetector : public CompletedDetector<dart::collision::FCLCollisionDetector>
 {
 public:
   static std::shared_ptr<FclDetector> create();
 
   std::shared_ptr<dart::collision::CollisionDetector> cloneWithoutCollisionObjects() const override;
+
+  std::unique_ptr<dart::collision::CollisionGroup> createCollisionGroup() override;
+
+  using CompletedDetector::collide;
+  bool collide(
+      dart::collision::CollisionGroup* group, const dart::collision::CollisionOption& option,
+      dart::collision::CollisionResult* result) override;
 
   /// Whether the trees of soft bodies are made of their points at rest and not, as by the engine, where they are then: a
   /// copy and what it was copied from need the same trees from there on.

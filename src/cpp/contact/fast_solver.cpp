@@ -11,6 +11,7 @@
 
 #include "base/errors.hpp"
 #include "contact/contact_reduction.hpp"
+#include "engine/fixed_skins.hpp"
 #include "engine/boxed_lcp.hpp"
 
 namespace pydart2 {
@@ -109,6 +110,7 @@ void FastConstraintSolver::solve_by_groups(const Step* step)
   updateConstraints();
   if (wake(step))
     updateConstraints();
+  drop_fixed_skins(*this);
   buildConstrainedGroups();
   solveConstrainedGroups();
 }

@@ -7,6 +7,7 @@
 #include "collision/native_detector.hpp"
 #include "contact/contact_reduction.hpp"
 #include "contact/fast_solver.hpp"
+#include "engine/fixed_skins.hpp"
 #include "engine/collision_filter.hpp"
 
 /// What the iterative solver gets: contacts as the detector has them, and of the engine's constraints those that are not
@@ -143,6 +144,7 @@ void FastConstraintSolver::gather_from_groups(const Step* step)
   updateConstraints();
   if (wake(step))
     updateConstraints();
+  drop_fixed_skins(*this);
   buildConstrainedGroups();
   shared_ = mConstrainedGroups.size() > 1 && groups_share_skeletons();
   for (auto& group : mConstrainedGroups) {

@@ -12,6 +12,7 @@
 
 #include "base/errors.hpp"
 #include "base/messages.hpp"
+#include "engine/late_sizes.hpp"
 #include "loading/built.hpp"
 
 namespace pydart2 {
@@ -183,7 +184,13 @@ SkeletonPtr parse_skeleton(const ModelSource& source)
 
 WorldPtr load_world(const ModelSource& source)
 {
-  const auto world = parse([&] { return parse_world(source); });
+  const auto world = parse([&] {
+    const LateSizes late;
+    const auto read = parse_world(source);
+    for (std::size_t i = 0; read && i < read->getNumSkeletons(); ++i)
+      LateSizes::give(*read->getSkeleton(i));
+    return read;
+  });
   if (!world->getGravity().allFinite())
     throw Error(Kind::load, "its gravity is not finite");
   for (std::size_t i = 0; i < world->getNumSkeletons(); ++i)
@@ -196,7 +203,13 @@ SkeletonPtr load_skeleton(const ModelSource& source)
 {
   if (source.kind() == "built")
     return built::skeleton_of(source.texts().at(""));
-  auto skeleton = parse([&] { return parse_skeleton(source); });
+  auto skeleton = parse([&] {
+    const LateSizes late;
+    const auto read = parse_skeleton(source);
+    if (read)
+      LateSizes::give(*read);
+    return read;
+  });
   check_skeleton(*skeleton, source.lenient());
   forget_zero_masses();
   return skeleton;
