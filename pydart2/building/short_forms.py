@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2.building.skeletons import SkeletonBuilding
+from pydart2.building.branches import Branches
 
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
@@ -31,7 +31,7 @@ def _turned(angles: ArrayLike) -> NDArray[np.float64]:
     return euler_matrix(*np.asarray(angles, float))[:3, :3]
 
 
-class ShortForms(SkeletonBuilding):
+class ShortForms(Branches):
     """The part of Skeleton with the short forms."""
 
     def add_capsule(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pydart2.multibody.structure import Structure
 from pydart2.poses import pose
@@ -109,8 +109,8 @@ class SkeletonBuilding(Structure):
         """
         above = -1 if parent is None else self._parent_index(parent)
         kind = joint or ("free" if above < 0 else "weld")
-        _check_limits(name, limits)
-        hangs = above, name, _engine_name(kind), joint_name or f"{name}_joint", _axes_of(kind, axis)
+        check_limits(name, limits)
+        hangs = above, name, engine_name(kind), joint_name or f"{name}_joint", axes_of(kind, axis)
         if skin is None:
             index = self._handle.add_body(*hangs)
         else:
@@ -123,15 +123,9 @@ class SkeletonBuilding(Structure):
             soft.set_vertex_stiffness(skin.stiffness)
             soft.set_edge_stiffness(skin.edge_stiffness)
             soft.set_damping_coefficient(skin.damping)
-        in_body = pose(joint_position, joint_orientation)
-        body.parent_joint._handle.set_transform_from_child_body_node(in_body)
-        body.parent_joint._handle.place(pose(position, orientation))
-        if kind == "screw":
-            body.parent_joint._handle.set_pitch(pitch)
-        if kind == "euler":
-            body.parent_joint._handle.set_axis_order(order)
         numbers = {"damping": damping, "stiffness": stiffness, "rest": rest, "friction": friction, "armature": armature}
-        _set_dofs(body.parent_joint, limits, numbers)
+        in_body = pose(joint_position, joint_orientation)
+        set_joint(body.parent_joint, pose(position, orientation), in_body, pitch, order, limits, numbers)
         if mass or inertia is not None:
             body.add_mass(mass, com, inertia)
         return body
@@ -145,20 +139,25 @@ class SkeletonBuilding(Structure):
         self._handle.remove_body(self._parent_index(body))
         self.build()
 
-    def _parent_index(self, parent: BodyNode | str | int) -> int:
+    def _parent(self, parent: BodyNode | str | int) -> BodyNode:
         body = self.body(parent) if isinstance(parent, (str, int, np.integer)) else parent
         if body.skeleton is not self:
             raise ValueError(f"the parent {body!r} is of another skeleton")
-        return int(body.id)
+        return body
+
+    def _parent_index(self, parent: BodyNode | str | int) -> int:
+        return int(self._parent(parent).id)
 
 
-def _engine_name(kind: str) -> str:
+def engine_name(kind: str) -> str:
+    """The engine's name of a kind of joint; ValueError for one that there is not."""
     if kind not in JOINTS:
         raise ValueError(f"no joint {kind!r}; there are {', '.join(JOINTS)}")
     return JOINTS[kind]
 
 
-def _axes_of(kind: str, axis: ArrayLike | None) -> ArrayLike:
+def axes_of(kind: str, axis: ArrayLike | None) -> ArrayLike:
+    """The axes of a joint, shape (n, 3), no unit: those given, or its kind's; ValueError for another shape."""
     if axis is None:
         return np.array([[0.0, 0.0, 1.0]]) if kind in _ONE_AXIS else np.array(_AXES.get(kind, np.zeros((0, 3))), float)
     axes = np.array(axis, dtype=float, ndmin=2)
@@ -167,12 +166,32 @@ def _axes_of(kind: str, axis: ArrayLike | None) -> ArrayLike:
     return axes
 
 
-def _check_limits(name: str, limits: ArrayLike | None) -> None:
+def check_limits(name: str, limits: ArrayLike | None) -> None:
+    """ValueError unless limits, rad or m, are a pair, shape (2,), or one for each dof, shape (n, 2), in order."""
     pairs = np.array(() if limits is None else limits, dtype=float)
     if limits is not None and (pairs.shape[-1:] != (2,) or pairs.ndim > 2):
         raise ValueError(f"limits are a pair, or a pair for each dof, got the shape {pairs.shape}")
     if (pairs[..., :1] > pairs[..., 1:]).any():
         raise ValueError(f"a lower limit of the joint of {name!r} is above the upper: {pairs}")
+
+
+def set_joint(
+    joint: Joint,
+    where: NDArray[np.float64],
+    in_body: NDArray[np.float64],
+    pitch: float,
+    order: str,
+    limits: ArrayLike | None,
+    numbers: dict[str, ArrayLike | None],
+) -> None:
+    """Gives a new joint its places, shape (4, 4), m, and what its kind has of the numbers; see add_body()."""
+    joint._handle.set_transform_from_child_body_node(in_body)
+    joint._handle.place(where)
+    if joint.type() == JOINTS["screw"]:
+        joint._handle.set_pitch(pitch)
+    if joint.type() == JOINTS["euler"]:
+        joint._handle.set_axis_order(order)
+    _set_dofs(joint, limits, numbers)
 
 
 def _set_dofs(joint: Joint, limits: ArrayLike | None, values: dict[str, ArrayLike | None]) -> None:

@@ -131,6 +131,20 @@ public:
   /// Takes a body away, with all that hangs from it. Every handle into this skeleton must be taken again.
   void remove_body(long index);
 
+  /// Moves a body of a skeleton of the world with all that hangs from it to a parent here, -1 for the world; their new
+  /// names, parents first. The joint is as in add_body(); without a type it keeps its own. Every handle into both
+  /// skeletons must be taken again.
+  std::vector<std::string> move_branch(
+      long of_skeleton,
+      long body,
+      long parent,
+      const std::string& joint_type,
+      const std::string& joint_name,
+      const MatrixIn& axes);
+
+  /// Adds a copy of such a branch, its joints and state, bits and pairs of the collision filter; its first body's index.
+  int copy_branch(long of_skeleton, long body, long parent);
+
   /// Steps by the engine's rule since the world got another integrator.
   long integrator_fallbacks() const;
 
@@ -143,6 +157,7 @@ private:
   void forget_root_armature(); ///< The joint goes.
   void check_root_can_change(const char* what) const;
   void check_tree_can_change(const char* what) const;
+  dart::dynamics::BodyNode* parent_at(long index) const; ///< Null for -1, the world.
   void tree_changed(RootChange change);
   int add_new(
       long parent,

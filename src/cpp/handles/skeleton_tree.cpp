@@ -64,17 +64,8 @@ int SkeletonHandle::add_new(
   check_tree_can_change("add_body()");
   check_new_name(name, skel.getBodyNode(name) != nullptr, "body");
   check_new_name(joint_name, skel.getJoint(joint_name) != nullptr, "joint");
-  check::shape(axes, static_cast<std::size_t>(axes.rows), 3, "axes");
-  built::NewJoint joint{joint_type, joint_name, {}};
-  for (long i = 0; i < axes.rows; ++i) {
-    joint.axes.emplace_back(Eigen::Map<const Eigen::Vector3d>(axes.data + 3 * i));
-    check::direction(joint.axes.back(), "axis");
-  }
-  if (joint.axes.size() == 2 && joint.axes[0].cross(joint.axes[1]).norm() < 1e-6)
-    throw Error(Kind::value, "the two axes must not be parallel");
-  if (parent < -1)
-    check::index(parent, skel.getNumBodyNodes(), "parent");
-  auto* above = parent == -1 ? nullptr : skel.getBodyNode(check::index(parent, skel.getNumBodyNodes(), "parent"));
+  const auto joint = built::new_joint(joint_type, joint_name, axes);
+  auto* above = parent_at(parent);
   mark_built(*skeleton_.world, *skeleton_.skeleton);
   const auto& body = built::add_body(skel, above, name, joint, skin);
   skeleton_.world->tree_changed(*skeleton_.skeleton);
@@ -108,6 +99,12 @@ void SkeletonHandle::remove_body(long index)
   world.tree_changed(*skeleton_.skeleton);
 }
 
+dart::dynamics::BodyNode* SkeletonHandle::parent_at(long index) const
+{
+  auto& skel = skeleton();
+  return index == -1 ? nullptr : skel.getBodyNode(check::index(index, skel.getNumBodyNodes(), "parent"));
+}
+
 void SkeletonHandle::check_new_name(const std::string& name, bool taken, const char* what) const
 {
   if (name.empty())
@@ -125,6 +122,10 @@ void SkeletonHandle::check_root_can_change(const char* what) const
 
 void SkeletonHandle::check_tree_can_change(const char* what) const
 {
+  if (skeleton_.skeleton->not_numbers)
+    throw Error(
+        Kind::value,
+        std::string(what) + " cannot change skeleton '" + name() + "', which reads NaN since it blew up; set its state first");
   if (skeleton_.skeleton->motors.targets())
     throw Error(
         Kind::value,

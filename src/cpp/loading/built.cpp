@@ -18,6 +18,7 @@
 #include <limits>
 #include <sstream>
 
+#include "base/checks.hpp"
 #include "base/errors.hpp"
 #include "base/messages.hpp"
 #include "loading/built_shapes.hpp"
@@ -30,15 +31,28 @@ namespace {
 
 using Axes = std::vector<Eigen::Vector3d>;
 
-template <class Joint>
-BodyNode& add(Skeleton& skeleton, BodyNode* parent, const typename Joint::Properties& properties, const Skin* skin)
+/// Where a joint goes, and what hangs from it: a new body, a new one with a skin, or one that there is.
+struct Place
 {
-  if (skin != nullptr)
-    return *skeleton
+  Skeleton& skeleton;
+  BodyNode* parent;
+  const Skin* skin = nullptr;
+  BodyNode* body = nullptr;
+};
+
+template <class Joint>
+BodyNode& add(const Place& at, const typename Joint::Properties& properties)
+{
+  if (at.body != nullptr) {
+    at.body->moveTo<Joint>(at.skeleton.getPtr(), at.parent, properties);
+    return *at.body;
+  }
+  if (at.skin != nullptr)
+    return *at.skeleton
                 .createJointAndBodyNodePair<Joint, SoftBodyNode>(
-                    parent, properties, SoftBodyNode::Properties(BodyNode::Properties(), *skin))
+                    at.parent, properties, SoftBodyNode::Properties(BodyNode::Properties(), *at.skin))
                 .second;
-  return *skeleton.createJointAndBodyNodePair<Joint>(parent, properties).second;
+  return *at.skeleton.createJointAndBodyNodePair<Joint>(at.parent, properties).second;
 }
 
 template <class Joint>
@@ -54,38 +68,38 @@ typename Joint::Properties named(const NewJoint& joint, std::size_t num_axes)
 }
 
 template <class Joint>
-BodyNode& add_plain(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint, const Skin* skin)
+BodyNode& add_plain(const Place& at, const NewJoint& joint)
 {
-  return add<Joint>(skeleton, parent, named<Joint>(joint, 0), skin);
+  return add<Joint>(at, named<Joint>(joint, 0));
 }
 
 template <class Joint>
-BodyNode& add_axis(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint, const Skin* skin)
+BodyNode& add_axis(const Place& at, const NewJoint& joint)
 {
   auto properties = named<Joint>(joint, 1);
   properties.mAxis = joint.axes[0].normalized();
-  return add<Joint>(skeleton, parent, properties, skin);
+  return add<Joint>(at, properties);
 }
 
-BodyNode& add_universal(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint, const Skin* skin)
+BodyNode& add_universal(const Place& at, const NewJoint& joint)
 {
   auto properties = named<UniversalJoint>(joint, 2);
   properties.mAxis = {joint.axes[0].normalized(), joint.axes[1].normalized()};
-  return add<UniversalJoint>(skeleton, parent, properties, skin);
+  return add<UniversalJoint>(at, properties);
 }
 
 template <class Joint>
-BodyNode& add_plane(Skeleton& skeleton, BodyNode* parent, const NewJoint& joint, const Skin* skin)
+BodyNode& add_plane(const Place& at, const NewJoint& joint)
 {
   auto properties = named<Joint>(joint, 2);
   properties.setArbitraryPlane(joint.axes[0], joint.axes[1]);
-  return add<Joint>(skeleton, parent, properties, skin);
+  return add<Joint>(at, properties);
 }
 
 constexpr struct
 {
   const char* type;
-  BodyNode& (*add)(Skeleton&, BodyNode*, const NewJoint&, const Skin*);
+  BodyNode& (*add)(const Place&, const NewJoint&);
 } kinds[] = {
     {"BallJoint", add_plain<BallJoint>},
     {"EulerJoint", add_plain<EulerJoint>},
@@ -99,6 +113,14 @@ constexpr struct
     {"UniversalJoint", add_universal},
     {"WeldJoint", add_plain<WeldJoint>},
 };
+
+BodyNode& add_joint(const Place& at, const NewJoint& joint)
+{
+  for (const auto& kind : kinds)
+    if (joint.type == kind.type)
+      return kind.add(at, joint);
+  throw Error(Kind::value, "no joint type '" + joint.type + "'");
+}
 
 /// The axes that make a joint of the type; their numbers come with visit_model(), but for planes.
 Axes axes_of(const Joint& any)
@@ -212,20 +234,36 @@ SkeletonPtr skeleton_of(const std::string& structure)
   return skeleton;
 }
 
+NewJoint new_joint(const std::string& type, const std::string& name, const MatrixIn& axes)
+{
+  check::shape(axes, static_cast<std::size_t>(axes.rows), 3, "axes");
+  NewJoint joint{type, name, {}};
+  for (long i = 0; i < axes.rows; ++i) {
+    joint.axes.emplace_back(Eigen::Map<const Eigen::Vector3d>(axes.data + 3 * i));
+    check::direction(joint.axes.back(), "axis");
+  }
+  if (joint.axes.size() == 2 && joint.axes[0].cross(joint.axes[1]).norm() < 1e-6)
+    throw Error(Kind::value, "the two axes must not be parallel");
+  return joint;
+}
+
 BodyNode& add_body(
     Skeleton& skeleton, BodyNode* parent, const std::string& name, const NewJoint& joint, const Skin* skin)
 {
-  for (const auto& kind : kinds)
-    if (joint.type == kind.type) {
-      auto& body = kind.add(skeleton, parent, joint, skin);
-      body.setName(name);
-      if (skin != nullptr)
-        body.getShapeNode(0)->setName(name + "_skin");
-      const messages::Ignoring ignoring; // those about bodies without mass
-      body.setInertia(Inertia(0.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()));
-      return body;
-    }
-  throw Error(Kind::value, "no joint type '" + joint.type + "'");
+  auto& body = add_joint({skeleton, parent, skin}, joint);
+  body.setName(name);
+  if (skin != nullptr)
+    body.getShapeNode(0)->setName(name + "_skin");
+  const messages::Ignoring ignoring; // those about bodies without mass
+  body.setInertia(Inertia(0.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()));
+  return body;
+}
+
+void hang(Skeleton& skeleton, BodyNode* parent, BodyNode& body, const NewJoint& joint)
+{
+  if (parent != nullptr && parent == body.getParentBodyNode())
+    body.moveTo(skeleton.getPtr(), nullptr); // else it keeps its place among the children, but not among the bodies
+  add_joint({skeleton, parent, nullptr, &body}, joint);
 }
 
 } // namespace pydart2::built

@@ -24,6 +24,9 @@ struct NewJoint
   std::vector<Eigen::Vector3d> axes;
 };
 
+/// Axes as rows; ValueError for what are none.
+NewJoint new_joint(const std::string& type, const std::string& name, const MatrixIn& axes);
+
 /// A body without mass, and a soft one if there is a skin, whose shape then is its first; the parent is null for the
 /// world. ValueError for an unknown type or a wrong number of axes.
 dart::dynamics::BodyNode& add_body(
@@ -32,6 +35,13 @@ dart::dynamics::BodyNode& add_body(
     const std::string& name,
     const NewJoint& joint,
     const Skin* skin = nullptr);
+
+/// The body, with all that hangs from it, under another parent, of this or another skeleton; else as add_body().
+void hang(
+    dart::dynamics::Skeleton& skeleton,
+    dart::dynamics::BodyNode* parent,
+    dart::dynamics::BodyNode& body,
+    const NewJoint& joint);
 
 /// A shape of a type with its sizes: box, ellipsoid, pyramid three; cylinder, capsule, cone radius and height; sphere
 /// one; plane normal and offset; hull of spheres four a sphere. Null for other types.

@@ -61,6 +61,8 @@ void visit_body(Archive& archive, BodyNode& body)
     visit_soft_body(archive, *soft);
 }
 
+} // namespace
+
 void visit_skeleton(Archive& archive, SkeletonRecord& item)
 {
   auto& skeleton = *item.skeleton;
@@ -89,6 +91,8 @@ void visit_skeleton(Archive& archive, SkeletonRecord& item)
         [&] { return marker.getLocalPosition(); }, [&](const auto& p) { marker.setLocalPosition(Eigen::Vector3d(p)); });
   }
 }
+
+namespace {
 
 /// A body as two numbers: index of its skeleton in the world, its own index.
 BodyNode* visit_reference(Archive& archive, const WorldRecord& world, const BodyNode* body)

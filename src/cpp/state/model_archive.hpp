@@ -12,6 +12,9 @@ namespace pydart2 {
 /// A setter that is added to a handle needs a line here, so that clones have what it sets.
 void visit_model(Archive& archive, WorldRecord& world, bool with_skeletons = true);
 
+/// That of a skeleton alone, without its armature.
+void visit_skeleton(Archive& archive, SkeletonRecord& record);
+
 /// The digest that was put here last, empty if the model has changed since.
 std::string& known_digest(WorldRecord& world);
 
