@@ -127,8 +127,10 @@ class Coordinates(Structure):
     @tau.setter
     def tau(self, tau: ArrayLike) -> None:
         self._handle.set_forces(tau)
-        self._tau = self._pattern.copy()
-        self._tau[:] = tau
+        told = self._tau
+        if told is None or told.size != self._pattern.size:
+            told = self._tau = self._pattern.copy()
+        told[:] = tau
 
     set_tau = also(set_forces)
 
