@@ -21,7 +21,7 @@ CLASSES = (
     *(pydart2.World, pydart2.Skeleton, pydart2.BodyNode, pydart2.Joint, pydart2.Dof, pydart2.SkelVector),
     *(pydart2.CollisionResult, pydart2.Contact, pydart2.Recording, pydart2.Batch),
 )
-FOREIGN = "object, ndarray, NamedVector, ContactRow"  # bases whose methods are not ours to describe
+FOREIGN = "object, ndarray, LookedAt, NamedVector, ContactRow"  # bases whose methods are not ours to describe
 
 #: What else scripts import.
 MODULES = (

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from pydart2._native import LookedAt
 from pydart2.habits import answer, here
 from pydart2.original_names import ORIGINAL
 
@@ -23,7 +24,7 @@ _VECTORS = ("positions", "velocities", "accelerations", "forces", "commands")
 _SHORT = 4  # letters: names with fewer are near another only if they differ in case
 
 
-class Assignable:
+class Assignable(LookedAt):
     """The part of all objects of a world that looks at what is assigned to them.
 
     Assigning over a method `x()` calls ``set_x(value)``, where there is one. Over another method or a read-only
@@ -39,15 +40,16 @@ class Assignable:
         if not _is_ours(cls):
             _say_what_is_hidden(cls)
 
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name in self._unlooked or name[:1] == "_" or _takes(self, name, value):
-            object.__setattr__(self, name, value)
+    def _is_taken(self, name: str, value: Any) -> bool:
+        return _takes(self, name, value)
 
     if not TYPE_CHECKING:  # to whom all names would be there
 
         def __getattr__(self, name: str) -> Any:
             if name[:1] == "_":
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=None)
+            if hasattr(type(self), name):  # a property has raised an AttributeError of its own: once more, to be read
+                return object.__getattribute__(self, name)
             raise AttributeError(answer(type(self), name), name=name, obj=None)  # else Python would guess too
 
 

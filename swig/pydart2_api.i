@@ -7,6 +7,7 @@
 #include "engine/boxed_lcp.hpp"
 #include "engine/shared_scenes.hpp"
 #include "numpy_glue.hpp"
+#include "python/looked_at.hpp"
 #include "python/last_words.hpp"
 #include "without_gil.hpp"
 %}
@@ -22,6 +23,7 @@
   pydart2::messages::install();
   pydart2::python::set_last_words();
   on_exit(pydart2::python::WithoutGil::at_exit, nullptr);
+  PyModule_AddObject(m, "LookedAt", pydart2::looked_at::make_type());
   PyModule_AddObject(m, "NamedVector", pydart2::named_vector::make_type());
   PyModule_AddObject(m, "ContactRow", pydart2::contact_row::make_type());
 %}
@@ -48,7 +50,7 @@
 %include "batch.i"
 
 %pythoncode %{
-from ._pydart2_api import ContactRow, NamedVector
+from ._pydart2_api import ContactRow, LookedAt, NamedVector
 
 # The flat functions are made of the handle classes, when the first is wanted. (__path__ is asked for at import.)
 def __getattr__(name):

@@ -51,6 +51,8 @@ from pydart2.world import World
 
 Vector = TypeVar("Vector", bound=NDArray[np.float64])
 
+class LookedAt: ...
+
 class NamedVector(np.ndarray[tuple[int], np.dtype[np.float64]]):
     _names: Names | None
     def __getitem__(self, key: Any) -> Any: ...

@@ -127,10 +127,7 @@ class Coordinates(Structure):
     @tau.setter
     def tau(self, tau: ArrayLike) -> None:
         self._handle.set_forces(tau)
-        told = self._tau
-        if told is None or told.size != self._pattern.size:
-            told = self._tau = self._pattern.copy()
-        told[:] = tau
+        self._tau = self._handle.forces(self._pattern)  # the step will clear the engine's
 
     set_tau = also(set_forces)
 

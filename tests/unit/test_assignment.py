@@ -138,6 +138,16 @@ def test_ones_own_names_are_free(world: Any, robot: Any, caplog: pytest.LogCaptu
     assert not [r for r in caplog.records if "did you mean" in r.getMessage()]
 
 
+def test_a_property_that_fails_says_why(world: Any) -> None:
+    class Mine(pydart2.World):
+        @property
+        def reward(self) -> float:
+            return self._goal.distance  # there is no _goal
+
+    with pytest.raises(AttributeError, match="'Mine' object has no attribute '_goal'"):
+        _ = Mine(0.001).reward
+
+
 def test_what_is_assigned_goes_along(world: Any, robot: Any) -> None:
     robot.colour, world.count = "red", 3
     for copy in (world.clone(), pickle.loads(pickle.dumps(world))):

@@ -5,7 +5,7 @@
 /// NamedVector, the base in C of pydart2.SkelVector: an ndarray with one pointer more, to the names of its entries
 /// (pydart2.indexing.Names, a dict name -> index). `v["name"]` and `v[3]` are answered here, every other key is turned
 /// into an index by Names.resolve(key). Creating one costs what an ndarray costs.
-/// It knows Python, as only contact_row.hpp does else in this layer, because a subclass in Python costs ten times as much.
+/// It knows Python, as all of this folder does, because a subclass in Python costs ten times as much.
 namespace pydart2::named_vector {
 
 /// Makes the type; null with a Python error set. NumPy's C API must be imported.
