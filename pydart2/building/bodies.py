@@ -149,6 +149,10 @@ class BodyBuilding:
 
     def add_mass(self, mass: float, com: ArrayLike = (0.0, 0.0, 0.0), inertia: ArrayLike | None = None) -> None:
         """Add the mass, kg, of a part with its centre, shape (3,), m, and moment of inertia about it, (3, 3), kg m²."""
+        if inertia is None and mass > 0.0:
+            raise ValueError(
+                f"a mass of {mass} kg needs its inertia, or is given to a shape: body.add_box(size, mass={mass})"
+            )
         self._handle.add_mass(mass, com, np.zeros((3, 3)) if inertia is None else inertia)
 
     def add_marker(self, name: str, position: ArrayLike) -> Marker:

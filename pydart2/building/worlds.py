@@ -165,6 +165,21 @@ class WorldBuilding(SoftBuilding, Upright):
         """
         return self._add_single(solids.mesh(vertices, triangles), mass, position, {"name": "mesh", **options})
 
+    def add_heightfield(
+        self,
+        heights: ArrayLike,
+        scale: ArrayLike,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        **options: Unpack[BodyOptions],
+    ) -> Skeleton:
+        """Add terrain that is welded to the world: heights, shape (rows, columns), about a position of shape (3,), m.
+
+        `scale`, shape (3,): distance of columns and of rows, m, and what heights are multiplied by. Heights go along
+        the world's `up`, unless an orientation is given; row 0 is at the greatest y. Else as add_box().
+        """
+        upright: BodyOptions = {"name": "terrain", "orientation": between(self._upwards()), "fixed": True}
+        return self._add_single(solids.heightfield(heights, scale), 0.0, position, {**upright, **options})
+
     def _add_single(
         self, solid: solids.Solid, mass: float | None, position: ArrayLike, options: BodyOptions
     ) -> Skeleton:

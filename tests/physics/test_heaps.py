@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import pydart2
 from physics.models import add_ragdoll
@@ -161,27 +162,35 @@ def grid(heights: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.mark.parametrize("kind", ["box", "ball"])
-@pytest.mark.parametrize("direction", [0.0, 0.3])
-def test_inner_edges_do_not_catch(kind: str, direction: float) -> None:
-    """Over a flat floor of triangles, a box slides and a ball rolls straight on, and neither hops."""
+@pytest.mark.parametrize(
+    ("floor", "angle", "direction"),
+    [("mesh", 0.0, 0.0), ("mesh", 0.0, 0.3), ("heights", 0.0, 0.0), ("heights", 0.0, 0.3), ("heights", 0.2, 0.0)],
+)
+def test_inner_edges_do_not_catch(kind: str, floor: str, angle: float, direction: float) -> None:
+    """Over a floor of triangles, level or a slope, a box slides and a ball rolls straight on, and neither hops."""
     world = world_of(0.001, ground=False)
     world.set_constraint_solver("iterative", friction="cone")  # a pyramid brakes more across its edges
-    world.add_mesh(*grid(np.zeros((41, 41)), 0.2), None, fixed=True, friction=0.1)
-    if kind == "box":
-        body = world.add_box((0.3, 0.3, 0.3), 1.0, (-1.0, 0.03, 0.15), friction=0.1)
+    if floor == "mesh":
+        world.add_mesh(*grid(np.zeros((41, 41)), 0.2), None, fixed=True, friction=0.1)
     else:
-        body = world.add_sphere(0.15, 1.0, (-1.0, 0.03, 0.15), friction=0.1)
-    way = np.array([np.cos(direction), np.sin(direction), 0.0])
-    body.dq = [0.0, 0.0, 0.0, *(2.0 * way)]
-    if kind == "ball":
-        body.dq = [*(np.cross([0.0, 0.0, 1.0], 2.0 * way) / 0.15), *(2.0 * way)]
-    start, across = body.C, np.array([-way[1], way[0], 0.0])
+        heights = np.tile(0.2 * np.tan(angle) * np.arange(20.0, -21.0, -1.0), (41, 1))
+        world.add_heightfield(heights, (0.2, 0.2, 1.0), friction=0.1)
+    tilt = Rotation.from_rotvec([0.0, angle, 0.0]).as_matrix()
+    up, way = tilt[:, 2], tilt @ [np.cos(direction), np.sin(direction), 0.0]
+    place = tilt @ [-1.0, 0.03, 0.15]
+    if kind == "box":
+        body = world.add_box((0.3, 0.3, 0.3), 1.0, place, orientation=tilt, friction=0.1)
+        body.dq = [0.0, 0.0, 0.0, *(2.0 * tilt.T @ way)]  # in the body's frame
+    else:
+        body = world.add_sphere(0.15, 1.0, place, friction=0.1)
+        body.dq = [*(np.cross(up, 2.0 * way) / 0.15), *(2.0 * way)]
+    start = body.C
     for _ in range(20):
         world.step(40)
-        assert abs(body.C[2] - 0.15) <= 1e-3
+        assert abs((body.C - start) @ up) <= 1e-3
     gone = body.C - start
     assert gone @ way > 1.0
-    assert abs(gone @ across) <= 1e-3 * (gone @ way)
+    assert abs(gone @ np.cross(up, way)) <= 1e-3 * (gone @ way)
 
 
 def built(

@@ -52,6 +52,13 @@ def atlas() -> pydart2.World:
     return world
 
 
+def fallen() -> pydart2.World:
+    """A man on hands and feet."""
+    world = pydart2.World(0.001, pydart2.data_path("skel/fullbody1.skel"))
+    world.step(600)
+    return world
+
+
 def lopsided() -> pydart2.World:
     """Two turned boxes with their masses off their middles, hung on each other by a ball joint, on the floor."""
     world = floor()
@@ -66,7 +73,9 @@ def lopsided() -> pydart2.World:
 
 
 @pytest.mark.parametrize(
-    "make", [cubes, atlas, stack_that_touches, lopsided], ids=["cubes", "Atlas", "stack", "lopsided"]
+    "make",
+    [cubes, fallen, atlas, stack_that_touches, lopsided],
+    ids=["cubes", "fullbody1", "Atlas", "stack", "lopsided"],
 )
 def test_step_is_that_of_the_exact_solver(make: Callable[[], pydart2.World]) -> None:
     ours, exact = make(), make()
