@@ -44,6 +44,7 @@ CLAIMS = {
     "move_arm": 1,
     "pull": 2,
     "reach": 1,
+    "rubble": 2,
     "save_restore": 1,
     "shapes": 8,
     "simple_tracking": 1,
