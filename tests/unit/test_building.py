@@ -439,3 +439,10 @@ def test_short_forms_of_a_fork() -> None:
 def test_a_capsule_without_volume_is_refused(radius: float, length: float) -> None:
     with pytest.raises(ValueError, match=r"sizes must be|needs a mass"):
         pydart.World(0.001).add_capsule(radius, length)
+
+
+@pytest.mark.parametrize("scale", [(1.0, 0.0, 1.0), (1.0, -1.0, 1.0), (1.0, 1.0, 1e-46)])
+def test_heights_need_scales(scale: tuple[float, float, float]) -> None:
+    """The last is 0 in the precision in which the engine keeps it, which ended the process."""
+    with pytest.raises(ValueError, match="must be positive in single precision"):
+        pydart.World(0.001).add_heightfield(np.zeros((3, 3)), scale)
