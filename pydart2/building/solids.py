@@ -123,7 +123,7 @@ def heightfield(heights: ArrayLike, scale: ArrayLike) -> Solid:
     field = np.array(heights, dtype=float, ndmin=2)
     factors = np.array(_three(scale, "the scales of a field of heights"))
     if not (factors.astype(np.float32) > 0.0).all():  # the precision in which the engine keeps them
-        raise ValueError(f"the scales of a field of heights must be positive in single precision, got {scale}")
+        raise ValueError(f"the scales of a field of heights must be positive in single precision, got {scale!r}")
     return Solid("HeightmapShape", (), 0.0, np.zeros((3, 3)), heights=field, scale=factors)
 
 
