@@ -7,8 +7,8 @@
 #include "engine/boxed_lcp.hpp"
 #include "engine/shared_scenes.hpp"
 #include "numpy_glue.hpp"
-#include "python/looked_at.hpp"
 #include "python/last_words.hpp"
+#include "python/looked_at.hpp"
 #include "without_gil.hpp"
 %}
 
