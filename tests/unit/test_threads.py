@@ -100,8 +100,8 @@ def test_worlds_in_threads_end_as_alone(detector: int) -> None:
         world = pydart2.World(0.001, pydart2.data_path("skel/fullbody1.skel"))
         world.set_collision_detector(detector)
         world.set_recording(False)
-        for _ in range(5):
-            world.step(20)
+        for _ in range(25):
+            world.step(4)
             world = world.clone()
         results.append(world.states().tobytes())
 

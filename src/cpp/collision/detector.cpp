@@ -104,8 +104,7 @@ void renew_fcl(ConstraintSolver& solver, bool shapes_changed)
 
 void renew_detector(ConstraintSolver& solver, bool shapes_changed)
 {
-  const auto detector = solver.getCollisionDetector();
-  const auto group = solver.getCollisionGroup();
+  const auto detector = solver.getCollisionDetector(); // no hold on the group: ODE's goes under the lock
   if (detector->getType() == "bullet")
     renew_bullet(solver);
   if (detector->getType() == "dart" || detector->getType() == "ode")
