@@ -15,8 +15,8 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from html import escape
 from typing import Literal
-from xml.sax.saxutils import escape
 
 from pydart2._native import ModelSource, WorldHandle
 from pydart2.errors import LoadError
@@ -312,7 +312,7 @@ class _Builder:
         named = root if root.tag == "robot" else root.find("model") or root.find("skeleton")
         if named is None:
             raise ValueError(f"name= is for the skeletons of URDF, SDF and SKEL files, not of <{root.tag}>")
-        self.main.set(named, "@name", escape(name, {'"': "&quot;"}))
+        self.main.set(named, "@name", escape(name))
 
     def _include(self, document: Document, element: Element, name: str, above: tuple[str, ...]) -> None:
         path = self.places.find(name, packed=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from xml.sax.saxutils import escape
+from html import escape
 
 from pydart2.loading.rules import Rules
 from pydart2.loading.xml import Document, Element
@@ -170,7 +170,7 @@ def mirror(document: Document, mesh: Element, path: str) -> bool:
     axes = "".join(axis for axis, scale in zip("xyz", scales, strict=False) if float(scale) < 0.0)
     if not axes or document.root.tag == "mujoco":
         return False
-    document.set(mesh, fields[0], escape(f"mirror-{axes}://{path}", {'"': "&quot;"}))
+    document.set(mesh, fields[0], escape(f"mirror-{axes}://{path}"))
     document.set(mesh, fields[1], " ".join(repr(abs(float(scale))) for scale in scales))
     return True
 
