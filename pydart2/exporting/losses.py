@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import fields
 
 from pydart2.errors import ExportError
-from pydart2.exporting.parts import DofPart, JointPart, SkeletonPart, WorldPart
+from pydart2.exporting.parts import CameraPart, DofPart, JointPart, SkeletonPart, WorldPart
 
 _log = logging.getLogger("pydart2")
 _SHOWN = 5  # names of each kind
@@ -59,9 +59,15 @@ class Losses:
             self.add("names of dofs that are not those of their joints", joint.name)
 
     def add_world(self, world: WorldPart) -> None:
-        """Note the pairs of bodies of a world."""
+        """Note the pairs of bodies and the cameras of a world."""
         for one, two in world.pairs:
             self.add_pair(one[1], two[1])
+        self.add_cameras(world.cameras)
+
+    def add_cameras(self, cameras: Iterable[CameraPart]) -> None:
+        """Note that there are no cameras."""
+        for camera in cameras:
+            self.add("cameras", camera.name)
 
     def add_pair(self, one: str, two: str) -> None:
         """Note that two bodies pass through each other."""
@@ -78,6 +84,7 @@ class Losses:
         if skel.self_collision and "self_collision" not in held:
             self.add("self-collision", skel.name)
         for link in skel.links:
+            self.add_cameras(() if "cameras" in held else link.cameras)
             if not link.gravity and "gravity" not in held:
                 self.add("that gravity does not act (set_gravity_mode)", link.name)
             if not link.collidable and "collidable" not in held:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pydart2.exporting.losses import Losses
+from pydart2.exporting.mjcf_cameras import add_cameras, add_mounted
 from pydart2.exporting.mjcf_geoms import Assets, add_geom
 from pydart2.exporting.mjcf_joints import add_joints, note_joint, pose_at_start
 from pydart2.exporting.mjcf_masses import add_inertial, leader_of, settle_masses
@@ -16,7 +17,7 @@ from pydart2.exporting.parts import LinkPart, SkeletonPart, WorldPart
 from pydart2.exporting.reshape import note_order, put_frames_at_joints, refuse_ground
 from pydart2.exporting.shapes import note_surfaces
 
-_HELD = {"gravity", "collidable", "self_collision", "pairs", "enforced"}
+_HELD = {"gravity", "collidable", "self_collision", "pairs", "enforced", "cameras"}
 _ALL = 0x7FFFFFFF  # bits of the groups that collide
 _GROUPS = 30
 
@@ -32,6 +33,7 @@ class _File:
     assets: Assets
     taken: dict[str, set[str]] = field(default_factory=dict)
     names: dict[tuple[str, str], str] = field(default_factory=dict)
+    elements: dict[int, Element] = field(default_factory=dict)  # id of the link → its body
     groups: int = 0
 
     def name(self, kind: str, name: str, skel: SkeletonPart) -> str:
@@ -56,6 +58,9 @@ def root_of(skeletons: list[SkeletonPart], world: WorldPart | None, losses: Loss
         add(root, "option", **attributes(timestep=world.time_step, gravity=world.gravity))
     for skel in skeletons:
         _skeleton(skel, file)
+    add_cameras(file.world, world.cameras if world else (), file.names, losses)
+    for skel in skeletons:
+        add_mounted(skel, file.elements, file.names, losses)
     for one, two in world.pairs if world else ():
         add(file.contact, "exclude", body1=file.names[one], body2=file.names[two])
     root.extend(part for part in (assets.element, file.world, file.contact, file.equality) if len(part))
@@ -72,12 +77,12 @@ def _skeleton(skel: SkeletonPart, file: _File) -> None:
     _note_skeleton(skel, losses)
     settle_masses(skel, losses)
     bits = _bits(skel, file)
-    elements: dict[int, Element] = {id(None): file.world}
     names: dict[str, str] = {}
     for link in skel.links:
-        elements[id(link)] = _body(elements[id(link.parent)], link, skel, file, names)
-        _geoms(elements[id(link)], link, skel, file, bits)
-        file.names[skel.name, link.name] = elements[id(link)].get("name", "")
+        above = file.world if link.parent is None else file.elements[id(link.parent)]
+        file.elements[id(link)] = body = _body(above, link, skel, file, names)
+        _geoms(body, link, skel, file, bits)
+        file.names[skel.name, link.name] = body.get("name", "")
     for link in skel.links:
         _follow(link, file, names)
     for one, two in skel.pairs:

@@ -115,6 +115,17 @@ class ShapePart:
 
 
 @dataclass
+class CameraPart:
+    """A camera of a world, as MountedCamera has it; what it looks at by the names of skeleton and body."""
+
+    name: str
+    pose: Array
+    fov: float
+    mode: str
+    target: tuple[str, str] | None
+
+
+@dataclass
 class LinkPart:
     """A body with the joint to its parent: poses of the joint in the parent and in the link, shape (4, 4), m."""
 
@@ -128,6 +139,7 @@ class LinkPart:
     inertia: Array
     shapes: list[ShapePart] = field(default_factory=list)
     markers: list[tuple[str, Array]] = field(default_factory=list)
+    cameras: list[CameraPart] = field(default_factory=list)
     gravity: bool = True
     collidable: bool = True
     soft: bool = False
@@ -158,19 +170,20 @@ class SkeletonPart:
 class WorldPart:
     """What a world has besides its skeletons: m/s², s, the detector's name, and pairs that pass through each other.
 
-    A pair are bodies of two skeletons, each by the names of skeleton and body.
+    A pair are bodies of two skeletons, each by the names of skeleton and body. The cameras are those on no body.
     """
 
     gravity: Array
     time_step: float
     detector: str
     pairs: list[tuple[tuple[str, str], tuple[str, str]]]
+    cameras: list[CameraPart]
 
 
 def world_part(world: World) -> WorldPart:
     """The numbers of a world."""
     pairs = [pair for pair in _pairs(world) if pair[0][0] != pair[1][0]]
-    return WorldPart(world.gravity(), world.dt, world._handle.collision_detector(), pairs)
+    return WorldPart(world.gravity(), world.dt, world._handle.collision_detector(), pairs, _cameras(world, None))
 
 
 def _pairs(world: World) -> list[tuple[tuple[str, str], tuple[str, str]]]:
@@ -181,6 +194,16 @@ def _pairs(world: World) -> list[tuple[tuple[str, str], tuple[str, str]]]:
     for pair in sorted(sorted((row[:2], row[2:])) for row in rows):
         one, two = (world.skeletons[skel].bodynodes[body] for skel, body in pair)
         found.append(((one.skeleton.name, one.name), (two.skeleton.name, two.name)))
+    return found
+
+
+def _cameras(world: World, body: BodyNode | None) -> list[CameraPart]:
+    """Those that are mounted on a body, or on none."""
+    found = []
+    for name, camera in world.cameras.items():
+        if camera.body is body:
+            target = None if camera.target is None else (camera.target.skeleton.name, camera.target.name)
+            found.append(CameraPart(name, np.array(camera.pose, dtype=float), camera.fov, camera.mode, target))
     return found
 
 
@@ -224,6 +247,7 @@ def _link_part(body: BodyNode, parent: LinkPart | None) -> LinkPart:
         inertia=body.I,
         shapes=[_shape_part(node) for node in body.shapenodes if node.shape is not None],
         markers=[(marker.label, marker.local_position()) for marker in body.markers],
+        cameras=_cameras(body.skeleton.world, body),
         gravity=body.gravity_mode(),
         collidable=body.is_collidable(),
         soft=body._handle.is_soft(),

@@ -79,7 +79,7 @@ def put_frames_at_joints(skel: SkeletonPart, losses: Losses, needs: Callable[[Li
     for link in skel.links:
         if needs(link) and not is_identity(link.in_link) and not _turn_axes(link):
             losses.add("frames of links apart from their joints, now at them", link.name)
-            _move_frame(skel, link)
+            _move_frame(skel, link, losses)
 
 
 def _turn_axes(link: LinkPart) -> bool:
@@ -97,7 +97,7 @@ def _turn_axes(link: LinkPart) -> bool:
     return True
 
 
-def _move_frame(skel: SkeletonPart, link: LinkPart) -> None:
+def _move_frame(skel: SkeletonPart, link: LinkPart, losses: Losses) -> None:
     """Let the link's frame be that of its joint."""
     back = inverse(link.in_link)
     turn = back[:3, :3]
@@ -105,6 +105,12 @@ def _move_frame(skel: SkeletonPart, link: LinkPart) -> None:
     link.inertia = turn @ link.inertia @ turn.T
     link.shapes = [_placed(shape, back) for shape in link.shapes]
     link.markers = [(name, _point(back, point)) for name, point in link.markers]
+    losses.add_cameras(camera for camera in link.cameras if camera.mode == "track")  # from an origin that is no more
+    link.cameras = [
+        camera if camera.mode == "trackcom" else replace(camera, pose=back @ camera.pose)
+        for camera in link.cameras
+        if camera.mode != "track"
+    ]
     for child in skel.links:
         if child.parent is link:
             child.in_parent = back @ child.in_parent

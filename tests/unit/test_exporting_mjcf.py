@@ -11,6 +11,8 @@ import pytest
 
 import pydart2 as pydart
 from oracle.mujoco_judge import full_mass_matrix
+from pydart2.cameras import MountedCamera
+from pydart2.poses import pose
 from unit.test_exporting import JOINTS, assert_moves_as, robot
 
 MODELS = ("chain.skel", "fullbody1.skel", "atlas_v3_no_head.sdf", "pr2.urdf")
@@ -181,3 +183,30 @@ def test_what_is_lost_is_said_once(caplog: pytest.LogCaptureFixture) -> None:
     assert "position limits that are not enforced" in line
     with pytest.raises(pydart.ExportError, match="position limits that are not enforced"):
         skel.to_mjcf(strict=True)
+
+
+def test_cameras_see_the_same(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """In all modes, on bodies and on none, in states of motion; a format without cameras says which are left out."""
+    world = pydart.World(0.001, up="z")
+    skel = world.add_skeleton(pydart.data_path("sdf/atlas/atlas_v3_no_head.sdf"))
+    hand, head = skel.body("l_hand"), skel.body("utorso")
+    random = np.random.default_rng(1)
+    where = [pose(random.normal(size=3), random.normal(size=4)) for _ in range(7)]
+    for i, mode in enumerate(("fixed", "track", "trackcom", "targetbody", "targetbodycom")):
+        target = head if mode.startswith("target") else None
+        world.cameras[mode] = MountedCamera(hand, where[i], 0.5 + 0.1 * i, mode, target)
+    world.cameras["standing"] = MountedCamera(None, where[5], 1.0)
+    world.cameras["turning"] = MountedCamera(None, where[6], 1.0, "targetbody", hand)
+    world.save(tmp_path / "world.xml")
+    loaded = pydart.World(0.001, str(tmp_path / "world.xml"))
+    assert set(loaded.cameras) == set(world.cameras)
+    other = loaded.skeletons[-1]
+    for _ in range(3):
+        skel.q = random.uniform(-0.5, 0.5, skel.ndofs)
+        other.q = [*skel.q[:6], *(skel.q[dof.name] for dof in other.dofs[6:])]
+        for name, camera in world.cameras.items():
+            assert np.allclose(loaded.cameras[name].eye(), camera.eye(), atol=1e-12), name
+            assert loaded.cameras[name].fov == pytest.approx(camera.fov, rel=1e-15)
+    assert "cameras (" not in caplog.text
+    world.save(tmp_path / "world.sdf")
+    assert "cameras ('standing', 'turning', 'fixed', 'track', 'trackcom' and 2 more)" in caplog.text
