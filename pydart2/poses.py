@@ -9,12 +9,14 @@ from numpy.typing import ArrayLike, NDArray
 def pose(position: ArrayLike, orientation: ArrayLike | None = None) -> NDArray[np.float64]:
     """The transform of a position, shape (3,), m, and an orientation: a quaternion [w, x, y, z], or a (3, 3) matrix.
 
-    Raises ValueError for other shapes, and for a quaternion of length 0.
+    Raises ValueError for other shapes, what is not finite, a quaternion of length 0 and a matrix that is no rotation.
     """
     transform = np.eye(4)
     place = np.asarray(position, dtype=float)
     if place.shape != (3,):
         raise ValueError(f"a position has the shape (3,), got {place.shape}")
+    if not np.isfinite(place).all():
+        raise ValueError(f"a position must be finite, got {place}")
     transform[:3, 3] = place
     if orientation is not None:
         transform[:3, :3] = rotation(orientation)
@@ -25,12 +27,14 @@ def rotation(orientation: ArrayLike) -> NDArray[np.float64]:
     """The matrix of a quaternion [w, x, y, z] of any length, or of a (3, 3) matrix."""
     turn = np.asarray(orientation, dtype=float)
     if turn.shape == (3, 3):
+        if not (np.abs(turn @ turn.T - np.eye(3)) < 1e-6).all() or np.linalg.det(turn) < 0.0:
+            raise ValueError(f"a (3, 3) matrix must be a rotation, got {turn.tolist()}")
         return turn
     if turn.shape != (4,):
         raise ValueError(f"an orientation is a quaternion [w, x, y, z] or a (3, 3) matrix, got the shape {turn.shape}")
     length = float(np.linalg.norm(turn))
-    if not length > 0.0:
-        raise ValueError(f"a quaternion must not be of length 0 nor NaN, got {turn}")
+    if not 0.0 < length < np.inf:
+        raise ValueError(f"a quaternion must be finite and not of length 0, got {turn}")
     w, x, y, z = turn / length
     return np.array(
         [

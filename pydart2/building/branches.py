@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2.building.skeletons import SkeletonBuilding, axes_of, check_limits, engine_name, set_joint
+from pydart2.building.skeletons import SkeletonBuilding, axes_of, check_joint, engine_name, set_joint
 from pydart2.poses import pose
 
 if TYPE_CHECKING:
@@ -70,8 +70,8 @@ class Branches(SkeletonBuilding):
         ------
         ValueError
             If the parent hangs from the body, the body is of another world, the joint's name is taken, an argument does
-            not fit the joint, a joint follows one that it would be parted from, or dofs have targets or a constraint
-            holds either skeleton.
+            not fit the joint, a joint follows one that it would be parted from, a muscle pulls at what leaves its
+            skeleton, or dofs have targets or a constraint holds either skeleton.
         """
         branch = self._branch(body)
         above = None if parent is None else self._parent(parent)
@@ -83,10 +83,10 @@ class Branches(SkeletonBuilding):
         )
         where = here if stays else pose((0.0, 0.0, 0.0) if position is None else position, orientation)
         in_body, velocity = pose(joint_position, joint_orientation), branch.world_spatial_velocity()
-        check_limits(branch.name, limits)
+        numbers = {"damping": damping, "stiffness": stiffness, "rest": rest, "friction": friction, "armature": armature}
+        check_joint(branch.name, joint, pitch, order, limits, numbers)
         name = joint_name or self._free_name(f"{branch.name}_joint", branch.parent_joint)
         self._hang(branch, above, engine_name(joint), name, axes_of(joint, axis))
-        numbers = {"damping": damping, "stiffness": stiffness, "rest": rest, "friction": friction, "armature": armature}
         set_joint(branch.parent_joint, where, in_body, pitch, order, limits, numbers)
         if joint == "free" and stays:
             _set_velocity(branch, velocity)
@@ -147,6 +147,8 @@ class Branches(SkeletonBuilding):
         """Hang a branch from a parent; the objects for its bodies, joints and dofs go with it."""
         source = branch.skeleton
         moved = [body for body in source.bodynodes if body is branch or _hangs_from(body, branch)]
+        if source is not self:
+            source._check_may_leave(moved)
         above = -1 if parent is None else parent.id
         names = self._handle.move_branch(source.id, branch.id, above, joint, name, axes)
         del source.name_to_joint[branch.parent_joint.name]
@@ -155,6 +157,9 @@ class Branches(SkeletonBuilding):
         self.build()
         if source is not self:
             source.build()
+
+    def _check_may_leave(self, bodies: list[BodyNode]) -> None:
+        """ValueError if a subclass holds a body that is about to go to another skeleton."""
 
     def _take_over(self, bodies: list[BodyNode], names: list[str]) -> None:
         """Have the objects for bodies that came from another skeleton, with their joints but for the first one's."""

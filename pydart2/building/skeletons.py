@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,6 +34,16 @@ _AXES = {
     "planar": [[1, 0, 0], [0, 1, 0]],
     "translational2d": [[1, 0, 0], [0, 1, 0]],
     "universal": [[1, 0, 0], [0, 1, 0]],
+}
+_DOFS = {
+    "ball": 3,
+    "euler": 3,
+    "free": 6,
+    "planar": 3,
+    "translational": 3,
+    "translational2d": 2,
+    "universal": 2,
+    "weld": 0,
 }
 _ONE_AXIS = ("prismatic", "revolute", "screw")
 
@@ -109,8 +120,10 @@ class SkeletonBuilding(Structure):
         """
         above = -1 if parent is None else self._parent_index(parent)
         kind = joint or ("free" if above < 0 else "weld")
-        check_limits(name, limits)
+        numbers = {"damping": damping, "stiffness": stiffness, "rest": rest, "friction": friction, "armature": armature}
+        where, in_body = pose(position, orientation), pose(joint_position, joint_orientation)
         hangs = above, name, engine_name(kind), joint_name or f"{name}_joint", axes_of(kind, axis)
+        check_joint(name, kind, pitch, order, limits, numbers)
         if skin is None:
             index = self._handle.add_body(*hangs)
         else:
@@ -118,16 +131,18 @@ class SkeletonBuilding(Structure):
             index = self._handle.add_soft_body(*hangs, skin.points, skin.masses, edges, triangles)
         self.build()
         body = self.bodynodes[index]
-        if skin is not None:
-            soft = body._handle.soft_body()
-            soft.set_vertex_stiffness(skin.stiffness)
-            soft.set_edge_stiffness(skin.edge_stiffness)
-            soft.set_damping_coefficient(skin.damping)
-        numbers = {"damping": damping, "stiffness": stiffness, "rest": rest, "friction": friction, "armature": armature}
-        in_body = pose(joint_position, joint_orientation)
-        set_joint(body.parent_joint, pose(position, orientation), in_body, pitch, order, limits, numbers)
-        if mass or inertia is not None:
-            body.add_mass(mass, com, inertia)
+        set_joint(body.parent_joint, where, in_body, pitch, order, limits, numbers)
+        try:
+            if skin is not None:
+                soft = body._handle.soft_body()
+                soft.set_vertex_stiffness(skin.stiffness)
+                soft.set_edge_stiffness(skin.edge_stiffness)
+                soft.set_damping_coefficient(skin.damping)
+            if mass or inertia is not None:
+                body.add_mass(mass, com, inertia)
+        except BaseException:
+            self.remove_body(body)
+            raise
         return body
 
     def remove_body(self, body: BodyNode | str | int) -> None:
@@ -166,13 +181,27 @@ def axes_of(kind: str, axis: ArrayLike | None) -> ArrayLike:
     return axes
 
 
-def check_limits(name: str, limits: ArrayLike | None) -> None:
-    """ValueError unless limits, rad or m, are a pair, shape (2,), or one for each dof, shape (n, 2), in order."""
-    pairs = np.array(() if limits is None else limits, dtype=float)
-    if limits is not None and (pairs.shape[-1:] != (2,) or pairs.ndim > 2):
-        raise ValueError(f"limits are a pair, or a pair for each dof, got the shape {pairs.shape}")
-    if (pairs[..., :1] > pairs[..., 1:]).any():
-        raise ValueError(f"a lower limit of the joint of {name!r} is above the upper: {pairs}")
+def check_joint(
+    name: str, kind: str, pitch: float, order: str, limits: ArrayLike | None, numbers: dict[str, ArrayLike | None]
+) -> None:
+    """ValueError unless the joint of a body can have all of it, so that none is half made; see add_body()."""
+    n = _DOFS.get(kind, 1)
+    if not math.isfinite(pitch):
+        raise ValueError(f"the pitch of the joint of {name!r} must be finite, got {pitch}")
+    if order not in ("XYZ", "ZYX"):
+        raise ValueError(f"the axis order is 'XYZ' or 'ZYX', got {order!r}")
+    pairs = np.array((0.0, 0.0) if limits is None else limits, dtype=float)
+    if pairs.shape not in ((2,), (1, 2), (n, 2)):
+        raise ValueError(f"limits are a pair, or a pair for each of {n} dofs, got the shape {pairs.shape}")
+    if not (pairs[..., 0] <= pairs[..., 1]).all():
+        raise ValueError(f"a lower limit of the joint of {name!r} is above the upper, or one is NaN: {pairs}")
+    for what, value in numbers.items():
+        array = np.array(0.0 if value is None else value, dtype=float)
+        if array.shape not in ((), (1,), (n,)):
+            raise ValueError(f"{what} is one number, or one for each of {n} dofs, got the shape {array.shape}")
+        if not np.isfinite(array).all() or (what != "rest" and (array < 0.0).any()):
+            least = "" if what == "rest" else " and not negative"
+            raise ValueError(f"{what} of the joint of {name!r} must be finite{least}, got {array}")
 
 
 def set_joint(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +11,9 @@ from pydart2.errors import PydartError
 from pydart2.muscle.route import Route
 from pydart2.muscle.tendon_unit import MusculoTendonUnit
 from pydart2.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from pydart2.bodynode import BodyNode
 
 
 class MusculoSkeleton(Skeleton):
@@ -32,6 +35,13 @@ class MusculoSkeleton(Skeleton):
         super().build()
         for _, route in self.muscles:
             route.initialize_points(self)
+
+    def _check_may_leave(self, bodies: list[BodyNode]) -> None:
+        """ValueError if a muscle is fixed to one of the bodies."""
+        for _, route in self.muscles:
+            held = next((point.body for point in route.points if point.body in bodies), None)
+            if held is not None:
+                raise ValueError(f"a muscle of {self.name!r} is fixed to {held.name!r}; take it from `muscles` before")
 
     def num_muscles(self) -> int:
         """How many muscles there are."""

@@ -6,6 +6,7 @@ import copy
 import gc
 import pickle
 import time
+from typing import Any
 
 import numpy as np
 import pytest
@@ -321,6 +322,25 @@ def test_what_cannot_be_is_refused(call, message: str) -> None:
         call(world)
     world.step()
     world.clone()
+
+
+@pytest.mark.parametrize(
+    ("what", "message"),
+    [
+        ({"mass": 1.0}, "needs its inertia"),
+        ({"mass": 1.0, "inertia": -np.eye(3)}, "inertia"),
+        ({"damping": (1, 2)}, "damping is one number, or one for each of 1 dofs"),
+        ({"position": (0, 0, float("inf"))}, "finite"),
+        ({"limits": (0, float("nan"))}, "NaN"),
+    ],
+)
+def test_no_body_is_half_made(what: dict[str, Any], message: str) -> None:
+    skel = arm(pydart.World(0.001))
+    before = [body.name for body in skel.bodynodes]
+    with pytest.raises(ValueError, match=message):
+        skel.add_body("new", "b0", "revolute", **what)
+    assert [body.name for body in skel.bodynodes] == before
+    skel.add_body("new", "b0", "revolute", mass=1.0, inertia=np.eye(3))
 
 
 def test_a_name_that_is_taken_is_refused() -> None:

@@ -197,3 +197,14 @@ def test_render(limb: MusculoSkeleton) -> None:
     for points, (_, route) in zip(drawn, limb.muscles):
         expected = [point.to_world() for point in route.points]
         np.testing.assert_array_equal(points, expected)
+
+
+def test_a_body_with_a_muscle_stays(limb: MusculoSkeleton) -> None:
+    names = [body.name for body in limb.bodynodes]
+    with pytest.raises(ValueError, match=r"a muscle of .* is fixed to 'foot'; take it from `muscles` before"):
+        limb.detach("foot")
+    assert [body.name for body in limb.bodynodes] == names
+    limb.attach("foot", "thigh")  # within the skeleton the muscles go on
+    limb.update_route_geometry()
+    limb.muscles.clear()
+    assert limb.detach("foot").bodynodes[0].name == "foot"
