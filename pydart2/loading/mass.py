@@ -71,7 +71,7 @@ def settle_masses(document: Document, massless: bool) -> list[Element]:
     kept = []
     for name in tree.order:
         link = tree.links[name]
-        if link.find("inertial") is not None or name == _GROUND:
+        if link.find("inertial", "mass") is not None or name == _GROUND:
             continue
         if name in needed:
             kept.append(link)

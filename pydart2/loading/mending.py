@@ -72,6 +72,9 @@ def mend(
             _mend_geometry(document, element, owner, kind, say, lenient)
         elif element.tag == "limit":
             _mend_limit(document, element, kind, say, bounds_as_engine)
+        elif element.tag == "inertial" and kind == "urdf" and element.find("mass") is None:
+            say(document, element, f"{owner}: its <inertial> has no <mass>; left out")
+            document.remove([element])
         elif element.tag == "mimic" and kind == "urdf" and owner is not None:
             _mend_mimic(document, element, owner, say)
         elif element.tag == "world" and kind == "sdf":
@@ -185,12 +188,16 @@ def _z_axis(roll: float, pitch: float, yaw: float) -> tuple[float, float, float]
 
 
 def _mend_limit(document: Document, limit: Element, kind: str, say: Say, bounds_as_engine: bool) -> None:
-    """Bounds the wrong way round are none; in URDF, neither are two that are not there."""
+    """Bounds the wrong way round are none; in URDF, neither are two that are not there, nor effort and velocity."""
     joint = limit.ancestor("joint")
     fields = ("@lower", "@upper") if kind == "urdf" else ("lower", "upper")
     lower, upper = (limit.get(field) for field in fields)
     if joint is None:
         return
+    if kind == "urdf" and (missing := [name for name in ("effort", "velocity") if limit.get(f"@{name}") is None]):
+        say(document, limit, f"{joint}: its <limit> has no {' and no '.join(missing)}; there is no such limit")
+        for name in missing:
+            document.set(limit, f"@{name}", UNBOUNDED)
     if lower is not None and upper is not None:
         if float(lower) <= float(upper):
             return

@@ -75,6 +75,14 @@ void use(dart::simulation::World& world)
   }
 }
 
+/// Gives a world the solver and the detector of a trial.
+void prepare(dart::simulation::World& world)
+{
+  pydart2::make_asymmetry_throw();
+  world.setConstraintSolver(std::make_unique<Solver>());
+  pydart2::replace_detector(*world.getConstraintSolver());
+}
+
 /// Loads and uses a model; the exit code.
 int attempt(const std::string& model)
 {
@@ -85,14 +93,10 @@ int attempt(const std::string& model)
     in >> what;
     in.get();
     const auto source = pydart2::unpack_source(in);
-    auto world = dart::simulation::World::create();
-    if (what == "world")
-      world = pydart2::load_world(source);
-    else
+    auto world = what == "world" ? pydart2::load_world(source) : dart::simulation::World::create();
+    prepare(*world);
+    if (what != "world") // now, when its meshes get one tree each
       world->addSkeleton(pydart2::load_skeleton(source));
-    pydart2::make_asymmetry_throw();
-    world->setConstraintSolver(std::make_unique<Solver>());
-    pydart2::replace_detector(*world->getConstraintSolver());
     use(*world);
   } catch (const std::exception& error) {
     std::fputs(error.what(), stdout);

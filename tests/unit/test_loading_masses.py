@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import re
 from typing import Any
 
 import numpy as np
@@ -111,8 +112,22 @@ def test_massless_is_for_kinematics(caplog: Any) -> None:
     assert caplog.records == []
     assert skel.m == 2.0 and skel.M[1, 1] == 0.0
     assert skel.body("tip").linear_jacobian().shape == (3, 2)
-    with pytest.raises(SimulationError, match="body 'tip' of skeleton 'r' moves without mass in it or below it"):
+    with pytest.raises(SimulationError, match="body 'tip' of skeleton 'r' moves nothing that has inertia"):
         world.step()
+
+
+def test_masses_that_are_points_are_for_kinematics() -> None:
+    """A mass without moments of inertia on its own axis turns by nothing; away from it, it has mass times distance²."""
+    point = re.sub("(ixx|iyy|izz)='[^']*'", r"\1='0'", ARM)
+    world = World(0.001)
+    skel = world.add_skeleton(point)
+    assert skel.m == 2.0 and (skel.M == 0.0).all()
+    with pytest.raises(SimulationError, match="body 'arm' of skeleton 'r' moves nothing that has inertia"):
+        world.step()
+    away = point.replace("<mass", "<origin xyz='1 1 1'/><mass")  # 1² + 1² from the y axis
+    world = World(0.001)
+    assert world.add_skeleton(away).M[0, 0] == pytest.approx(2.0 * 2.0, rel=1e-12)
+    world.step()
 
 
 def test_strict_refuses_at_the_line() -> None:

@@ -136,6 +136,26 @@ INVERTED = "<limit lower='1' upper='-1' effort='7' velocity='8'/>"
 UNSTATED = "<limit effort='7' velocity='8'/>"
 
 
+def test_a_limit_without_effort_and_velocity_bounds_neither(caplog: Any) -> None:
+    dof = World(0.001).add_skeleton(arm("<limit lower='-1' upper='2'/>")).dofs[-1]
+    assert (dof.position_lower_limit(), dof.position_upper_limit()) == (-1.0, 2.0)
+    assert dof.velocity_upper_limit() == dof.force_upper_limit() == math.inf
+    assert dof.velocity_lower_limit() == dof.force_lower_limit() == -math.inf
+    (record,) = caplog.records
+    assert "<joint> 'arm': its <limit> has no effort and no velocity" in record.getMessage()
+    with pytest.raises(LoadError, match="no effort and no velocity"):
+        World(0.001).add_skeleton(arm("<limit lower='-1' upper='2'/>"), strict=True)
+
+
+def test_an_inertial_without_mass_is_none(caplog: Any) -> None:
+    cup = "<link name='cup'><inertial><origin xyz='0 0 1'/></inertial></link>"
+    held = "<joint name='held' type='fixed'><parent link='arm'/><child link='cup'/></joint>"
+    skel = World(0.001).add_skeleton(arm(UNSTATED).replace("</robot>", f"{cup}{held}</robot>"))
+    assert skel.body("cup").m == 0.0
+    (record,) = caplog.records
+    assert "<link> 'cup': its <inertial> has no <mass>; left out" in record.getMessage()
+
+
 @pytest.mark.parametrize(
     ("text", "line"),
     [

@@ -4,7 +4,8 @@
 
 namespace pydart2 {
 
-/// A body that a joint moves, and that has no mass, nor has any below it: its acceleration has no answer. Null if none.
+/// A body whose joint moves nothing that has inertia along one of its dofs, as it stands now: its acceleration has no
+/// answer. Null if none.
 const dart::dynamics::BodyNode* weightless_body(const dart::dynamics::Skeleton& skeleton);
 
 } // namespace pydart2

@@ -20,7 +20,7 @@ constexpr const char* remedy
 std::string needs_mass(const BodyNode& body)
 {
   return "body '" + body.getName() + "' of skeleton '" + body.getSkeleton()->getName()
-         + "' moves without mass in it or below it: give it mass, or weld it";
+         + "' moves nothing that has inertia: give it, or a body below it, mass and inertia, or weld it";
 }
 
 const dart::dynamics::DegreeOfFreedom* find_fastest_dof(const WorldRecord& record)
