@@ -78,7 +78,7 @@ class World(
         with that. Without it the world is empty. The gravity is the file's, or 9.81 m/s² along -y.
     xmlstr
         Whether `skel_path` is the XML itself, however it begins.
-    packages, missing_meshes, safe, reader, massless, engine_defaults, strict
+    packages, missing_meshes, safe, reader, massless, engine_defaults, strict, load_seconds
         As in `add_skeleton`. With engine_defaults collision detectors also have the engine's own shapes only: to FCL
         a capsule is a ball of 5 cm, and so on.
     up
@@ -130,6 +130,7 @@ class World(
         massless: bool = False,
         engine_defaults: bool = False,
         strict: bool = False,
+        load_seconds: float | None = None,
     ) -> None:
         check(up)
         if isinstance(step, (str, bytes, os.PathLike)):
@@ -139,6 +140,7 @@ class World(
             from pydart2.loading import Options, read_model  # a third of the time to import pydart2
 
             options = Options(packages, missing_meshes, safe, xmlstr, reader, massless, engine_defaults, strict)
+            options.load_seconds = load_seconds
             model = read_model(model, options)
         if model is not None and model.has_world:
             self._handle = model.load_world()

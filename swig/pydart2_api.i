@@ -5,6 +5,7 @@
 #define PY_ARRAY_UNIQUE_SYMBOL pydart2_ARRAY_API
 #include "engine/assertions.hpp"
 #include "engine/boxed_lcp.hpp"
+#include "engine/late_ode.hpp"
 #include "engine/shared_scenes.hpp"
 #include "numpy_glue.hpp"
 #include "python/last_words.hpp"
@@ -20,6 +21,7 @@
     PyErr_SetString(PyExc_ImportError, "the engine's libraries do not import meshes as those of DART 6.12 do");
     return nullptr;
   }
+  pydart2::LateOde::install();
   pydart2::messages::install();
   pydart2::python::set_last_words();
   on_exit(pydart2::python::WithoutGil::at_exit, nullptr);

@@ -5,7 +5,6 @@
 #include <cxxabi.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cstdio>
 
 #include "base/interrupt.hpp"
@@ -17,11 +16,11 @@ namespace pydart2::python {
 class WithoutGil
 {
 public:
-  WithoutGil() : state_(PyEval_SaveThread()) { ++running; }
+  WithoutGil() : state_(PyEval_SaveThread()) { ++threads_inside; }
   ~WithoutGil()
   {
     take_back();
-    --running;
+    --threads_inside;
   }
   WithoutGil(const WithoutGil&) = delete;
   WithoutGil& operator=(const WithoutGil&) = delete;
@@ -30,7 +29,7 @@ public:
   /// libraries take down what that thread uses.
   static void at_exit(int status, void*)
   {
-    if (running == 0)
+    if (threads_inside == 0)
       return;
     std::fflush(nullptr);
     _exit(status);
@@ -62,7 +61,6 @@ private:
       throw ErrorIsSet{};
   }
 
-  inline static std::atomic<int> running{0};
   PyThreadState* state_;
   const Interruptible interruptible_{run_signal_handlers, this};
 };

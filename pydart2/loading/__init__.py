@@ -13,10 +13,9 @@ import logging
 import math
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from html import escape
-from typing import Literal
 
 from pydart2._native import ModelSource, WorldHandle
 from pydart2.errors import LoadError
@@ -24,15 +23,16 @@ from pydart2.loading import files
 from pydart2.loading.checks import check, relevant, rules_of
 from pydart2.loading.mass import settle_masses
 from pydart2.loading.mending import is_unbounded, mend, mend_fields, mirror
+from pydart2.loading.options import Missing as Missing
+from pydart2.loading.options import Options as Options
+from pydart2.loading.options import Reader as Reader
 from pydart2.loading.parts import names_of, skeletons_of, split
 from pydart2.loading.readable import Readable
 from pydart2.loading.rules import URDF, URDF_WORLD, Rules
-from pydart2.loading.trial import try_model
+from pydart2.loading.trial import seconds_for, try_model
 from pydart2.loading.xml import Document, Element, parse
 from pydart2.resources import data_folder, find_model
 
-Missing = Literal["error", "warn"]
-Reader = Literal["mujoco", "engine"]
 Source = str | bytes | os.PathLike[str]
 
 MAX_INCLUDE_DEPTH = 8
@@ -49,48 +49,6 @@ _log = logging.getLogger("pydart2")
 
 
 @dataclass
-class Options:
-    """How to load.
-
-    Attributes
-    ----------
-    packages
-        Package name → folder, for ``package://name/…`` and ``model://name/…``. Others are looked for in
-        ROS_PACKAGE_PATH, then in the folders above the file.
-    missing_meshes
-        What to do when the mesh of a collision shape is missing: ``"error"`` raises LoadError, ``"warn"`` leaves the
-        shape out. Visual shapes without their mesh are always left out, with a warning.
-    safe
-        Whether to try the file in a helper process first, so that a crash of the engine's parsers is a LoadError.
-        None: unless it is one of the package's own models.
-    text
-        Whether the source is a text even if it does not begin with ``<``.
-    reader
-        Who reads MJCF: ``"mujoco"``, its own compiler (``pip install pydart2[mjcf]``), or ``"engine"``, whose numbers
-        differ: it takes degrees for radians, loses masses and joints.
-    massless
-        Whether URDF links without ``<inertial>`` weigh nothing even where the motion then has no answer: for kinematics
-        and comparisons.
-    engine_defaults
-        Whether they weigh 1 kg, and joints whose limits are not stated have 0 and 0, as the engine's own loader has it.
-    strict
-        Whether what else is a warning is a LoadError.
-    name
-        The skeleton's name, in place of the file's.
-    """
-
-    packages: Mapping[str, str | os.PathLike[str]] | None = None
-    missing_meshes: Missing = "error"
-    safe: bool | None = None
-    text: bool = False
-    reader: Reader = "mujoco"
-    massless: bool = False
-    engine_defaults: bool = False
-    strict: bool = False
-    name: str | None = None
-
-
-@dataclass
 class Model(Readable):
     """A file that was read and checked, ready for the engine. As a path, it is that of its file."""
 
@@ -100,6 +58,7 @@ class Model(Readable):
     safe: bool
     files: list[str] = field(default_factory=list)
     light: bool = False  # whether links without <inertial> weigh less than in the engine
+    load_seconds: float | None = None
 
     @property
     def has_world(self) -> bool:
@@ -119,9 +78,9 @@ class Model(Readable):
         """A new world with the content of the file."""
         if not self.has_world:
             raise self.document.error(self.document.root, "it has no world")
-        self._try(world=True)
+        seconds = self._try(world=True)
         with self._located():
-            world = WorldHandle.load(self.source)
+            world = WorldHandle.load(self.source, seconds)
         for index in range(world.num_skeletons()):
             self._unbind(world, index)
         return world
@@ -133,9 +92,9 @@ class Model(Readable):
             many = f"; world.add_skeletons(file) adds what is in it: {inside}" if inside else ""
             what = f"is a world; load it with World(step, file){many}" if self.has_world else "has no model"
             raise self.document.error(self.document.root, f"it {what}")
-        self._try(world=False)
+        seconds = self._try(world=False)
         with self._located():
-            index = world.add_skeleton(self.source)
+            index = world.add_skeleton(self.source, seconds)
         self._unbind(world, index)
         return index
 
@@ -150,11 +109,14 @@ class Model(Readable):
                     if is_unbounded(getattr(dof, f"{kind}_{bound}_limit")()):
                         getattr(dof, f"set_{kind}_{bound}_limit")(none)
 
-    def _try(self, world: bool) -> None:
-        reason = try_model(self.source, world, self.files) if self.safe else None
+    def _try(self, world: bool) -> float:
+        """In a helper process; how long the reading may take then, s of processor time."""
+        seconds = seconds_for(self.source, self.files) if self.load_seconds is None else self.load_seconds
+        reason = try_model(self.source, world, self.files, seconds) if self.safe else None
         if reason is not None:
             hint = "; it may be for want of mass: engine_defaults=True gives each link without <inertial> 1 kg"
             raise self._error(reason + hint * (self.light and "Nan" in reason))
+        return seconds
 
     @contextlib.contextmanager
     def _located(self) -> Iterator[None]:
@@ -196,15 +158,13 @@ def read_model(what: Source | Readable, options: Options | None = None) -> Reada
         return what
     options = options or Options()
     document = _document_of(what, options)
-    if options.name is not None and not options.name.strip():
-        raise ValueError("name must not be empty")
     if document.root.tag == "mujoco":
         if options.name is not None:
             raise ValueError("name= is for the skeletons of URDF, SDF and SKEL files, not of <mujoco>")
         if options.reader == "mujoco":
             from pydart2.mjcf import MjcfModel
 
-            return MjcfModel(document, safe=options.safe is not False)
+            return MjcfModel(document, options.safe is not False, options.load_seconds)
         _log.warning("%s: read with reader='engine', whose numbers differ from MuJoCo's", document.path or "XML text")
     return _Builder(document, options).build()
 
@@ -220,12 +180,7 @@ def read_models(what: Source, options: Options, only: str | Iterable[str] | None
 
 def _document_of(what: Source, options: Options) -> Document:
     """The XML that a path, a URI or a text means."""
-    if options.massless and options.engine_defaults:
-        raise ValueError("massless=True and engine_defaults=True exclude each other")
-    if options.reader not in ("mujoco", "engine"):
-        raise ValueError(f"reader must be 'mujoco' or 'engine', got {options.reader!r}")
-    if options.missing_meshes not in ("error", "warn"):
-        raise ValueError(f"missing_meshes must be 'error' or 'warn', got {options.missing_meshes!r}")
+    options.check()
     if isinstance(what, bytes):
         return parse(what, None)
     if isinstance(what, str) and (options.text or what.lstrip("\ufeff \t\r\n").startswith("<")):
@@ -288,7 +243,7 @@ class _Builder:
             self.source.add_text(self.path, re.sub(rb"</mujoco\s*>\s*$", b"<default/></mujoco>", text).decode())
         own = self.main.path is not None and self.path.startswith(str(data_folder().resolve()) + os.sep)
         safe = self.options.safe if self.options.safe is not None else not own
-        return Model(self.main, self.rules, self.source, safe, self.files, light)
+        return Model(self.main, self.rules, self.source, safe, self.files, light, self.options.load_seconds)
 
     def _add(self, path: str, document: Document, above: tuple[str, ...]) -> None:
         """Check a document and those that it includes."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import math
 import os
 import re
 import select
@@ -24,7 +25,12 @@ _ASSERTION = re.compile(r"(?:.*/)?([^/\s]+\.\w+:\d+): .*Assertion `(.*)' failed"
 _known_to_work: set[bytes] = set()
 
 
-def try_model(source: ModelSource, world: bool, files: Iterable[str]) -> str | None:
+def seconds_for(source: ModelSource, files: Iterable[str]) -> float:
+    """How long a model may take that names these files, in its trial and again when it is read, s of processor time."""
+    return SECONDS + (len(source.packed()) + _stamp(files)[0]) / 1e6
+
+
+def try_model(source: ModelSource, world: bool, files: Iterable[str], seconds: float) -> str | None:
     """Why a model cannot be loaded or simulated, None if it can; `files` are those that it names.
 
     A model that worked is not tried again in this process unless it or one of its files has changed.
@@ -34,7 +40,8 @@ def try_model(source: ModelSource, world: bool, files: Iterable[str]) -> str | N
     key = hashlib.sha256(packed + stamp + bytes([world])).digest()
     if key in _known_to_work:
         return None
-    reason = _run(b"world " * world + b"skeleton " * (not world) + packed, len(packed) + sizes)
+    memory = BYTES + 100 * (len(packed) + sizes)
+    reason = _run(b"world " * world + b"skeleton " * (not world) + packed, seconds, memory)
     if reason is None:
         _known_to_work.add(key)
     return reason
@@ -79,7 +86,7 @@ class _Helper:
         EOFError if the helper is gone, TimeoutError if the trial takes ten times the processor time that it has.
         """
         deadline = time.monotonic() + 10.0 * seconds
-        left = memoryview(f"{seconds:.0f} {memory:.0f} {len(request)}\n".encode() + request)
+        left = memoryview(f"{math.ceil(seconds)} {memory:.0f} {len(request)}\n".encode() + request)
         try:
             while left:
                 left = left[os.write(self.requests, left) :]
@@ -141,18 +148,17 @@ def _helper() -> _Helper:
         raise PydartError(f"cannot run {HELPER}: {error}; reinstall pydart2, or load with safe=False") from error
 
 
-def _run(request: bytes, size: int) -> str | None:
-    seconds = SECONDS + size / 1e6
+def _run(request: bytes, seconds: float, memory: float) -> str | None:
     for _ in range(2 + MOST_IDLE):  # somebody may have ended those that wait
         helper = _helper()
         try:
-            code, said, complained = helper.ask(request, seconds, BYTES + 100 * size)
+            code, said, complained = helper.ask(request, seconds, memory)
         except EOFError:
             helper.close()
             continue
         except TimeoutError:
             helper.kill()
-            return f"the engine does not finish it in {10 * seconds:.0f} s"
+            return f"the engine does not finish it in {10 * seconds:.3g} s; load_seconds= waits longer"
         except BaseException:
             helper.kill()
             raise
@@ -169,7 +175,7 @@ def _run(request: bytes, size: int) -> str | None:
 def _crash(number: int, said: str, seconds: float) -> str:
     """What a signal means."""
     if number in (signal.SIGXCPU, signal.SIGKILL):
-        return f"the engine does not finish it in {seconds:.0f} s of processor time"
+        return f"the engine does not finish it in {seconds:.3g} s of processor time; load_seconds= waits longer"
     assertion = _ASSERTION.search(said)
     if assertion:
         return f"the engine would abort: it needs {assertion[2]} ({assertion[1]})"

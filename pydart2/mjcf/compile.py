@@ -41,8 +41,8 @@ except ValueError:
 _known_to_work: set[bytes] = set()
 
 
-def try_to_compile(path: str | None, text: bytes) -> None:
-    """Compile in a process of its own first; LoadError if that ends it. One that worked is not tried again."""
+def try_to_compile(path: str | None, text: bytes, seconds: float) -> None:
+    """Compile in a process of its own; LoadError if that ends it or takes longer; what worked is not tried again."""
     mujoco_module()
     key = hashlib.sha256(repr(path).encode() + text).digest()
     if key in _known_to_work:
@@ -50,9 +50,11 @@ def try_to_compile(path: str | None, text: bytes) -> None:
     # close_fds=False lets subprocess use posix_spawn: this process is not forked.
     command = [sys.executable, "-c", _TRIAL, path or ""]
     try:
-        done = subprocess.run(command, input=text, capture_output=True, timeout=60, close_fds=False)
+        done = subprocess.run(command, input=text, capture_output=True, timeout=seconds, close_fds=False)
     except subprocess.TimeoutExpired:
-        raise LoadError.at(path, None, "MuJoCo does not finish it in 60 s") from None
+        raise LoadError.at(
+            path, None, f"MuJoCo does not finish it in {seconds:.3g} s; load_seconds= waits longer"
+        ) from None
     if done.returncode != 0:
         said = done.stderr.decode("utf-8", "replace").strip().splitlines()
         raise LoadError.at(path, None, f"MuJoCo's compiler ends its process: {said[-1] if said else done.returncode}")

@@ -42,10 +42,10 @@ class MjcfModel(Readable):
 
     has_world = True
 
-    def __init__(self, document: Document, safe: bool = False) -> None:
+    def __init__(self, document: Document, safe: bool = False, load_seconds: float | None = None) -> None:
         self.document = document
         if safe:
-            try_to_compile(document.path, document.data)
+            try_to_compile(document.path, document.data, 60.0 if load_seconds is None else load_seconds)
         self.compiled: Compiled = compile_model(document.path, document.data)
         self.built: Built | None = None
         self.time_step = float(self.compiled.opt.timestep)

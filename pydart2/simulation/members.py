@@ -44,6 +44,7 @@ class Members(WorldPart):
         orientation: ArrayLike | None = None,
         base: Literal["auto", "fixed", "free"] = "auto",
         name: str | None = None,
+        load_seconds: float | None = None,
     ) -> Skeleton:
         """Load a URDF, SDF, SKEL, MJCF or VSK file and add its skeleton.
 
@@ -86,6 +87,9 @@ class Members(WorldPart):
             as the file has it.
         name
             In place of the file's (URDF, SDF, SKEL). The second skeleton of a name gets `` (1)`` behind it.
+        load_seconds
+            How long the trial may take, and reading again, s of the processor's time; None: five, and one more for each
+            megabyte of its files. Ctrl-C ends either.
 
         Raises
         ------
@@ -98,7 +102,9 @@ class Members(WorldPart):
         if base not in ("auto", "fixed", "free"):
             raise ValueError(f"base must be 'auto', 'fixed' or 'free', got {base!r}")
         where = pose((0.0, 0.0, 0.0) if position is None else position, orientation)
-        options = Options(packages, missing_meshes, safe, False, reader, massless, engine_defaults, strict, name)
+        options = Options(
+            packages, missing_meshes, safe, False, reader, massless, engine_defaults, strict, name, load_seconds
+        )
         model = read_model(filename, options)
         with self._all_or_nothing():
             skel = self._load(model, CLASS)
@@ -130,6 +136,7 @@ class Members(WorldPart):
         engine_defaults: bool = False,
         strict: bool = False,
         enforce_limits: bool = False,
+        load_seconds: float | None = None,
     ) -> list[Skeleton]:
         """Add the skeletons of a SKEL or SDF file, a world or not, without its gravity and time step.
 
@@ -141,7 +148,7 @@ class Members(WorldPart):
             The name of one, or names, in the order in which they are added; None for all, in that of the file.
         position, orientation
             Where the origin of the file is in the world: shape (3,), m; a quaternion [w, x, y, z] or a (3, 3) matrix.
-        CLASS, packages, missing_meshes, safe, engine_defaults, strict, enforce_limits
+        CLASS, packages, missing_meshes, safe, engine_defaults, strict, enforce_limits, load_seconds
             As for `add_skeleton`.
 
         Raises
@@ -155,7 +162,9 @@ class Members(WorldPart):
         from pydart2.loading import Options, read_models
 
         where = pose(position, orientation)
-        options = Options(packages, missing_meshes, safe, engine_defaults=engine_defaults, strict=strict)
+        options = Options(
+            packages, missing_meshes, safe, engine_defaults=engine_defaults, strict=strict, load_seconds=load_seconds
+        )
         made: list[Skeleton] = []
         with self._all_or_nothing():
             for model in read_models(filename, options, only):

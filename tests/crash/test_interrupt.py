@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -90,3 +92,65 @@ def test_a_pipe_is_no_model(tmp_path: Path) -> None:
     for load in (lambda: pydart2.World(0.001, str(pipe)), lambda: pydart2.World(0.001).add_skeleton(str(pipe))):
         with pytest.raises(pydart2.LoadError, match="pipe or a device"):
             load()
+
+
+LOAD = """
+import sys, time
+from pathlib import Path
+import pydart2
+from pydart2.loading import trial
+from unit.test_loading_time import long_chain, long_chain_world
+
+folder = Path(sys.argv[1])
+world = pydart2.World(0.001, "skel/cubes.skel")
+before = world.num_skeletons()
+{prepare}
+print("begins", flush=True)
+try:
+    {load}
+except KeyboardInterrupt:
+    print(time.monotonic(), flush=True)
+    assert world.num_skeletons() == before
+    world.add_skeleton(long_chain(3).replace("chain", "next", 1), safe=False)
+    world.step(2)
+    sys.exit(7)
+"""
+MESH = """<robot name="m"><link name="l"><inertial><mass value="1"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+<visual><geometry><mesh filename="big.obj"/></geometry></visual></link></robot>"""
+WRITE_MESH = f"""
+model = folder / "big.urdf"
+model.write_text({MESH!r})
+faces = "".join(f"v {{i}} 0 0\\nv {{i}} 1 0\\nv {{i}} 0 {{i % 7 + 1}}\\nf -1 -2 -3\\n" for i in range(500_000))
+(folder / "big.obj").write_text(faces)
+"""
+LOADS = {
+    "a trial that waits": ("trial.HELPER = folder / 'idle'; model = long_chain(3)", "world.add_skeleton(model)"),
+    "a trial": ("model = long_chain(5000)", "world.add_skeleton(model, load_seconds=99)"),
+    "a skeleton": ("model = long_chain(5000)", "world.add_skeleton(model, safe=False, load_seconds=99)"),
+    "a world": (
+        "model = long_chain_world(4000, 'ode')",
+        "pydart2.World(0.001, model, safe=False, load_seconds=99)",
+    ),
+    "a mesh": (WRITE_MESH, "world.add_skeleton(model, safe=False, load_seconds=99)"),
+}
+
+
+@pytest.mark.parametrize("what", LOADS)
+@pytest.mark.parametrize("after", [0.3, 0.8])
+def test_loading(what: str, after: float, tmp_path: Path) -> None:
+    """The world is as it was before."""
+    idle = tmp_path / "idle"
+    idle.write_text("#!/bin/sh\nexec 3<&0\n(sleep 99) <&3 &\n")
+    idle.chmod(0o755)
+    prepare, load = LOADS[what]
+    command = [sys.executable, "-c", LOAD.format(prepare=prepare, load=load), str(tmp_path)]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])}
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+    assert child.stdout is not None and child.stdout.readline() == "begins\n"
+    time.sleep(after)
+    sent = time.monotonic()
+    child.send_signal(signal.SIGINT)
+    out, err = child.communicate(timeout=60.0)
+    assert child.returncode == 7, out + err
+    assert float(out) - sent < 0.2

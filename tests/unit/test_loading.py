@@ -445,11 +445,13 @@ def test_a_parser_that_never_ends(monkeypatch: pytest.MonkeyPatch, tmp_path: Pat
     """Signal 24 is what the limit of processor time sends; who only waits is ended by the clock, with its children."""
     monkeypatch.setattr("pydart2.loading.trial.HELPER", stub(tmp_path / "slow", "read l; printf -- '-24 0 0\\n'"))
     monkeypatch.setattr("pydart2.loading.trial.SECONDS", 1.0)
-    assert "does not finish it in 1 s of processor time" in str(refusal(URDF.replace("crane", "slow")))
+    assert "does not finish it in 1 s of processor time; load_seconds= waits longer" in str(
+        refusal(URDF.replace("crane", "slow"))
+    )
     pid = tmp_path / "pid"
     monkeypatch.setattr("pydart2.loading.trial.HELPER", stub(tmp_path / "idle", f"sleep 999 & echo $! >{pid}; wait"))
     monkeypatch.setattr("pydart2.loading.trial.SECONDS", 0.02)
-    assert "the engine does not finish it in 0 s" in str(refusal(URDF.replace("crane", "idle")))
+    assert "the engine does not finish it in 0.2" in str(refusal(URDF.replace("crane", "idle")))
     assert is_gone(int(pid.read_text()))
 
 
@@ -534,24 +536,3 @@ def test_no_line_is_longer_than_needed() -> None:
     """Even of a huge value, the error shows a part."""
     assert len(str(refusal(URDF.replace("'2'", f"'{'9' * 100_000}x'")))) < 500
     assert re.search(r"\d", str(refusal(URDF.replace("'2'", "'9 9'"))))
-
-
-def long_chain(links: int) -> str:
-    inertia = '<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>'
-    joint = '<parent link="{0}"/><child link="{1}"/><origin xyz="0 0 0.1"/><axis xyz="1 0 0"/>'
-    bodies = [f'<link name="{i}"><inertial><mass value="1"/>{inertia}</inertial></link>' for i in range(links)]
-    joints = [f'<joint name="j{i}" type="continuous">{joint.format(i, i + 1)}</joint>' for i in range(links - 1)]
-    return f'<robot name="chain">{"".join(bodies + joints)}</robot>'
-
-
-def test_chains_of_very_many_links() -> None:
-    """The engine makes its matrices anew for each link; here they are made once."""
-    start = time.process_time()
-    world = pydart2.World(0.001)
-    chain = world.add_skeleton(long_chain(1000), safe=False)
-    assert time.process_time() - start < 6.0
-    assert chain.ndofs == 6 + 999 and chain.m == pytest.approx(1000.0)
-    world.step()
-    assert chain.C[2] == pytest.approx(49.95)
-    short = world.add_skeleton(long_chain(40), safe=False)
-    np.testing.assert_allclose(short.M[3:6, 3:6], 40.0 * np.eye(3), atol=1e-9)

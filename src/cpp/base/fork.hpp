@@ -11,6 +11,9 @@ enum class ForkOrder { manager, ode, meshes, innermost };
 /// Has these called before the process forks, and after it in the parent and in the child.
 void at_fork(ForkOrder order, void (*before)(void*), void (*in_parent)(void*), void (*in_child)(void*), void* mutex);
 
+/// How many of the mutexes below this thread is inside of.
+inline thread_local int locks_held = 0;
+
 /// A mutex that no other thread is inside of when the process forks, for what lives as long as the process: the child
 /// finds it free, and what it protects whole. None may be held by a thread that waits for the interpreter.
 template <class Mutex>
@@ -27,8 +30,17 @@ public:
   HeldOverFork(const HeldOverFork&) = delete;
   HeldOverFork& operator=(const HeldOverFork&) = delete;
 
-  void lock() { mutex_.lock(); }
-  void unlock() { mutex_.unlock(); }
+  void lock()
+  {
+    mutex_.lock();
+    ++locks_held;
+  }
+
+  void unlock()
+  {
+    --locks_held;
+    mutex_.unlock();
+  }
 
 private:
   static Mutex& of(void* self) { return static_cast<HeldOverFork*>(self)->mutex_; }

@@ -11,17 +11,10 @@
 namespace pydart2 {
 
 /// ODE keeps data per process: to be held where a world with its detector is made, used or freed. While it is held no
-/// lock may be taken but those of shared_scenes.cpp and fcl_detector.cpp, under which nothing else is taken.
+/// lock may be taken but those of shared_scenes.cpp and fcl_detector.cpp, under which nothing else is taken: not Python's
+/// either, whose holder may wait for this one, and no file is read, which takes long.
 using OdeMutex = HeldOverFork<std::recursive_mutex>;
 std::unique_lock<OdeMutex> lock_ode();
-
-/// What `make` makes from a file, which may ask for ODE.
-template <class Make>
-auto with_ode(Make make)
-{
-  const auto lock = lock_ode();
-  return make();
-}
 
 /// Of each detector that make_detector() makes; one that takes its place takes it over.
 struct ShapeChoice

@@ -5,6 +5,7 @@
 #include <dart/dynamics/SoftBodyNode.hpp>
 #include <limits>
 
+#include "base/aside.hpp"
 #include "base/checks.hpp"
 #include "base/errors.hpp"
 #include "base/interrupt.hpp"
@@ -62,9 +63,10 @@ WorldHandle::WorldHandle(WorldRef record) : record_(std::move(record)) {}
 
 WorldHandle::WorldHandle(double time_step) : record_(Manager::instance().add(make_world(time_step))) {}
 
-WorldHandle WorldHandle::load(const ModelSource& source)
+WorldHandle WorldHandle::load(const ModelSource& source, double seconds)
 {
-  return WorldHandle(Manager::instance().add(with_ode([&] { return load_world(source); }), source.packed()));
+  auto world = aside(seconds, [source] { return load_world(source); });
+  return WorldHandle(Manager::instance().add(std::move(world), source.packed()));
 }
 
 WorldHandle WorldHandle::find(long id)
@@ -102,9 +104,9 @@ SkeletonHandle WorldHandle::skeleton(long index) const
   return {record_, skeletons[check::index(index, skeletons.size(), "skeleton")]};
 }
 
-int WorldHandle::add_skeleton(const ModelSource& source)
+int WorldHandle::add_skeleton(const ModelSource& source, double seconds)
 {
-  record_->add(load_skeleton(source), source.packed());
+  record_->add(aside(seconds, [source] { return load_skeleton(source); }), source.packed());
   return static_cast<int>(record_->skeletons.size()) - 1;
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/errors.hpp"
 #include "base/messages.hpp"
+#include "engine/late_ode.hpp"
 #include "engine/late_sizes.hpp"
 #include "loading/built.hpp"
 
@@ -186,6 +187,7 @@ WorldPtr load_world(const ModelSource& source)
 {
   const auto world = parse([&] {
     const LateSizes late;
+    const LateOde late_ode;
     const auto read = parse_world(source);
     for (std::size_t i = 0; read && i < read->getNumSkeletons(); ++i)
       LateSizes::give(*read->getSkeleton(i));

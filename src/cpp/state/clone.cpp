@@ -162,7 +162,7 @@ WorldRef build(const Blueprint& blueprint)
   const auto& plan = blueprint.plan;
   if (plan.size() < texts_of_world || (plan.size() - texts_of_world) % texts_per_skeleton != 0)
     Archive::refuse();
-  const auto world = Manager::instance().add(with_ode([&] { return world_from(plan[0]); }), plan[0]);
+  const auto world = Manager::instance().add(world_from(plan[0]), plan[0]);
   const Busy claim(*world); // another thread's init() would clear it
   follow_plan(*world, plan);
   if (const Eigen::Map<const Eigen::VectorXd> numbers(blueprint.numbers.data(), static_cast<long>(blueprint.numbers.size()));
