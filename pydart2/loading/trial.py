@@ -47,6 +47,21 @@ def try_model(source: ModelSource, world: bool, files: Iterable[str], seconds: f
     return reason
 
 
+def try_mjcf(libraries: Iterable[str], path: str | None, text: bytes, seconds: float) -> str | None:
+    """Why MuJoCo's compiler does not end by itself, None if it does, if only to refuse the model.
+
+    `libraries` are the paths of MuJoCo's, then of its plugins. What worked is not tried again in this process.
+    """
+    key = hashlib.sha256(repr(path).encode() + text).digest()
+    if key in _known_to_work:
+        return None
+    head = "\n".join(["mjcf", *libraries, "", path or "", ""])
+    reason = _run(head.encode() + text, seconds, BYTES + 100 * len(text), "MuJoCo")
+    if reason is None:
+        _known_to_work.add(key)
+    return reason
+
+
 def _stamp(files: Iterable[str]) -> tuple[int, bytes]:
     """The sizes of files, added up, and what changes when one of them does."""
     states = [(name, os.stat(name)) for name in sorted(set(files))]
@@ -148,7 +163,7 @@ def _helper() -> _Helper:
         raise PydartError(f"cannot run {HELPER}: {error}; reinstall pydart2, or load with safe=False") from error
 
 
-def _run(request: bytes, seconds: float, memory: float) -> str | None:
+def _run(request: bytes, seconds: float, memory: float, who: str = "the engine") -> str | None:
     for _ in range(2 + MOST_IDLE):  # somebody may have ended those that wait
         helper = _helper()
         try:
@@ -158,7 +173,7 @@ def _run(request: bytes, seconds: float, memory: float) -> str | None:
             continue
         except TimeoutError:
             helper.kill()
-            return f"the engine does not finish it in {10 * seconds:.3g} s; load_seconds= waits longer"
+            return f"{who} does not finish it in {10 * seconds:.3g} s; load_seconds= waits longer"
         except BaseException:
             helper.kill()
             raise
@@ -167,16 +182,16 @@ def _run(request: bytes, seconds: float, memory: float) -> str | None:
         else:
             helper.close()
         if code < 0:
-            return _crash(-code, complained, seconds)
+            return _crash(-code, complained, seconds, who)
         return (said or f"the helper ended with code {code}") if code > 0 else None
     raise PydartError(f"{HELPER} ends at once; reinstall pydart2, or load with safe=False")
 
 
-def _crash(number: int, said: str, seconds: float) -> str:
+def _crash(number: int, said: str, seconds: float, who: str) -> str:
     """What a signal means."""
     if number in (signal.SIGXCPU, signal.SIGKILL):
-        return f"the engine does not finish it in {seconds:.3g} s of processor time; load_seconds= waits longer"
+        return f"{who} does not finish it in {seconds:.3g} s of processor time; load_seconds= waits longer"
     assertion = _ASSERTION.search(said)
     if assertion:
-        return f"the engine would abort: it needs {assertion[2]} ({assertion[1]})"
-    return f"the engine would crash ({signal.Signals(number).name})"
+        return f"{who} would abort: it needs {assertion[2]} ({assertion[1]})"
+    return f"{who} would crash ({signal.Signals(number).name})"

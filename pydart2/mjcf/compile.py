@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 import logging
 import os
-import subprocess
-import sys
+import re
+from pathlib import Path
 from typing import Any
 
 from pydart2.errors import LoadError
+from pydart2.loading.trial import try_mjcf
 
 _log = logging.getLogger("pydart2")
 
@@ -29,36 +29,17 @@ def mujoco_module() -> Any:
     return mujoco
 
 
-_TRIAL = """
-import sys, mujoco
-path, text = sys.argv[1], sys.stdin.buffer.read()
-mujoco.set_mju_user_warning(lambda warning: None)
-try:
-    mujoco.MjModel.from_xml_path(path) if path else mujoco.MjModel.from_xml_string(text.decode("utf-8", "replace"))
-except ValueError:
-    pass
-"""
-_known_to_work: set[bytes] = set()
+_LIBRARY = re.compile(r"/\S.*(?:/libmujoco[^/\s]*\.so[.\d]*|/mujoco/plugin/[^/\s]*\.so)$", re.MULTILINE)
 
 
 def try_to_compile(path: str | None, text: bytes, seconds: float) -> None:
     """Compile in a process of its own; LoadError if that ends it or takes longer; what worked is not tried again."""
     mujoco_module()
-    key = hashlib.sha256(repr(path).encode() + text).digest()
-    if key in _known_to_work:
-        return
-    # close_fds=False lets subprocess use posix_spawn: this process is not forked.
-    command = [sys.executable, "-c", _TRIAL, path or ""]
-    try:
-        done = subprocess.run(command, input=text, capture_output=True, timeout=seconds, close_fds=False)
-    except subprocess.TimeoutExpired:
-        raise LoadError.at(
-            path, None, f"MuJoCo does not finish it in {seconds:.3g} s; load_seconds= waits longer"
-        ) from None
-    if done.returncode != 0:
-        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
-        raise LoadError.at(path, None, f"MuJoCo's compiler ends its process: {said[-1] if said else done.returncode}")
-    _known_to_work.add(key)
+    loaded = dict.fromkeys(_LIBRARY.findall(Path("/proc/self/maps").read_text()))
+    libraries = sorted(loaded, key=lambda library: "/plugin/" in library)
+    reason = try_mjcf(libraries, path, text, seconds)
+    if reason is not None:
+        raise LoadError.at(path, None, reason)
 
 
 def compile_model(path: str | None, text: bytes) -> Compiled:

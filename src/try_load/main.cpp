@@ -4,7 +4,7 @@
 // which takes most of a trial, is done once. It knows no models itself, so that each trial begins as the first.
 //
 // A request: seconds of processor time, bytes of memory, bytes of what follows, in a line; then "world" or "skeleton" and
-// a packed ModelSource. An answer: exit code, or minus a signal's number, and the bytes of two texts, in a line; the
+// a packed ModelSource, or what MuJoCo compiles (mjcf.hpp). An answer: exit code, or minus a signal's number, and the bytes of two texts, in a line; the
 // texts. Code 0: it works; 1: the first text says why not; a signal: the engine crashed, and an assertion that failed is
 // in the second.
 
@@ -29,6 +29,7 @@
 #include "engine/boxed_lcp.hpp"
 #include "engine/shared_scenes.hpp"
 #include "loading/loading.hpp"
+#include "mjcf.hpp"
 
 namespace {
 
@@ -115,7 +116,7 @@ int attempt(const std::string& model)
   limit(RLIMIT_FSIZE, most_said);
   limit(RLIMIT_CPU, request.seconds);
   limit(RLIMIT_AS, request.bytes);
-  const int code = attempt(request.model);
+  const int code = mjcf::is_request(request.model) ? mjcf::compile(request.model) : attempt(request.model);
   std::fflush(nullptr);
   std::cerr.flush();
   _exit(code);
@@ -143,6 +144,8 @@ bool read(Request& request)
 
 void answer(const Request& request)
 {
+  if (mjcf::is_request(request.model))
+    mjcf::open_libraries(request.model);
   const int said = memfd_create("said", 0), complained = memfd_create("complained", 0);
   const pid_t child = fork();
   if (child == 0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import pickle
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 
 import pydart2 as pydart
 from oracle.mujoco_judge import worst_errors
+from pydart2.loading import trial
 from pydart2.loading.xml import parse
 from pydart2.mjcf import MjcfModel
 
@@ -349,3 +351,41 @@ def test_the_engine_s_own_reader(caplog: pytest.LogCaptureFixture) -> None:
     ball = '<mujoco><worldbody><body name="b"><freejoint/><geom size=".1"/></body></worldbody></mujoco>'
     assert len(pydart.World(0.001, ball, reader="engine").skeletons) >= 1
     assert "reader='engine'" in caplog.text
+
+
+def test_a_compiler_that_dies_ends_its_trial_only(tmp_path: Path) -> None:
+    """With a library in the place of MuJoCo's that crashes, ends the process by its error handler, or never ends."""
+    library = tmp_path / "libmujoco.so"
+    source = """
+    #include <cstdlib>
+    #include <cstring>
+    extern "C" {
+    void (*mju_user_warning)(const char*);
+    void (*mju_user_error)(const char*);
+    void* mj_parseXMLString(const char* text, const void*, char*, int)
+    {
+      if (!strcmp(text, "crash"))
+        abort();
+      if (!strcmp(text, "error"))
+        mju_user_error("out of stack");
+      while (!strcmp(text, "wait")) {}
+      return nullptr;
+    }
+    }"""
+    subprocess.run(["c++", "-x", "c++", "-shared", "-fPIC", "-o", library, "-"], input=source, text=True, check=True)
+    reasons = {
+        word: trial.try_mjcf([str(library)], None, word.encode(), 1.0) for word in ("good", "crash", "error", "wait")
+    }
+    assert reasons == {
+        "good": None,
+        "crash": "MuJoCo would crash (SIGABRT)",
+        "error": "out of stack",
+        "wait": "MuJoCo does not finish it in 1 s of processor time; load_seconds= waits longer",
+    }
+
+
+def test_what_is_new_is_tried() -> None:
+    """In a helper process, with MuJoCo's own library: a time that is too short for the compiler says so."""
+    bodies = "".join(f"<body name='b{i}'><joint/><geom size='.1'/></body>" for i in range(20_000))
+    with pytest.raises(pydart.LoadError, match=r"MuJoCo does not finish it in 0\.5 s of processor time"):
+        pydart.World(0.001).add_skeleton(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>", load_seconds=0.5)
