@@ -29,7 +29,7 @@ from pydart2.loading.options import Reader as Reader
 from pydart2.loading.parts import names_of, skeletons_of, split
 from pydart2.loading.readable import Readable
 from pydart2.loading.rules import URDF, URDF_WORLD, Rules
-from pydart2.loading.trial import seconds_for, try_model
+from pydart2.loading.trial import getting_ready, seconds_for, try_model
 from pydart2.loading.xml import Document, Element, parse
 from pydart2.resources import data_folder, find_model
 
@@ -157,16 +157,19 @@ def read_model(what: Source | Readable, options: Options | None = None) -> Reada
     if isinstance(what, Readable):
         return what
     options = options or Options()
-    document = _document_of(what, options)
-    if document.root.tag == "mujoco":
-        if options.name is not None:
-            raise ValueError("name= is for the skeletons of URDF, SDF and SKEL files, not of <mujoco>")
-        if options.reader == "mujoco":
-            from pydart2.mjcf import MjcfModel
+    where, text = _source_of(what, options)
+    with getting_ready() if _is_tried(where, options) else contextlib.nullcontext():
+        document = parse(text, where)
+        if document.root.tag == "mujoco":
+            if options.name is not None:
+                raise ValueError("name= is for the skeletons of URDF, SDF and SKEL files, not of <mujoco>")
+            if options.reader == "mujoco":
+                from pydart2.mjcf import MjcfModel
 
-            return MjcfModel(document, options.safe is not False, options.load_seconds)
-        _log.warning("%s: read with reader='engine', whose numbers differ from MuJoCo's", document.path or "XML text")
-    return _Builder(document, options).build()
+                return MjcfModel(document, options.safe is not False, options.load_seconds)
+            place = document.path or "XML text"
+            _log.warning("%s: read with reader='engine', whose numbers differ from MuJoCo's", place)
+        return _Builder(document, options).build()
 
 
 def read_models(what: Source, options: Options, only: str | Iterable[str] | None) -> Iterator[Model]:
@@ -174,19 +177,27 @@ def read_models(what: Source, options: Options, only: str | Iterable[str] | None
 
     Raises LoadError as read_model() does, and NameNotFound.
     """
-    for document in split(_document_of(what, options), only):
+    where, text = _source_of(what, options)
+    for document in split(parse(text, where), only):
         yield _Builder(document, options).build()
 
 
-def _document_of(what: Source, options: Options) -> Document:
-    """The XML that a path, a URI or a text means."""
+def _source_of(what: Source, options: Options) -> tuple[str | None, bytes]:
+    """The file that a path or URI means, and its content; None and a text."""
     options.check()
     if isinstance(what, bytes):
-        return parse(what, None)
+        return None, what
     if isinstance(what, str) and (options.text or what.lstrip("\ufeff \t\r\n").startswith("<")):
-        return parse(what.encode("utf-8", "replace"), None)
+        return None, what.encode("utf-8", "replace")
     path = _path_of(os.fspath(what), options)
-    return parse(files.read_bytes(path), path)
+    return path, files.read_bytes(path)
+
+
+def _is_tried(path: str | None, options: Options) -> bool:
+    """Whether a file, or a text without, is tried first: all but the package's own models."""
+    if options.safe is not None:
+        return options.safe
+    return path is None or not path.startswith(str(data_folder().resolve()) + os.sep)
 
 
 def _path_of(name: str, options: Options) -> str:
@@ -241,8 +252,7 @@ class _Builder:
             # The engine aborts without one.
             text = _for_the_engine(self.main)
             self.source.add_text(self.path, re.sub(rb"</mujoco\s*>\s*$", b"<default/></mujoco>", text).decode())
-        own = self.main.path is not None and self.path.startswith(str(data_folder().resolve()) + os.sep)
-        safe = self.options.safe if self.options.safe is not None else not own
+        safe = _is_tried(self.main.path, self.options)
         return Model(self.main, self.rules, self.source, safe, self.files, light, self.options.load_seconds)
 
     def _add(self, path: str, document: Document, above: tuple[str, ...]) -> None:

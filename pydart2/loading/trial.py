@@ -10,7 +10,7 @@ import re
 import select
 import signal
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from pydart2._native import ModelSource
@@ -77,6 +77,7 @@ class _Helper:
 
     def __init__(self) -> None:
         self.path = str(HELPER)
+        self._is_ready = True
         theirs_in, self.requests = os.pipe()
         self.answers, theirs_out = os.pipe()
         actions = [
@@ -92,14 +93,14 @@ class _Helper:
         finally:
             os.close(theirs_in)
             os.close(theirs_out)
-        with contextlib.suppress(ChildProcessError):  # another waited for it
-            os.waitpid(self.group, 0)
+        self._is_ready = False
 
     def ask(self, request: bytes, seconds: float, memory: float) -> tuple[int, str, str]:
         """Exit code, or minus a signal's number; what was said; what was complained of.
 
         EOFError if the helper is gone, TimeoutError if the trial takes ten times the processor time that it has.
         """
+        self.wait_for_first()
         deadline = time.monotonic() + 10.0 * seconds
         left = memoryview(f"{math.ceil(seconds)} {memory:.0f} {len(request)}\n".encode() + request)
         try:
@@ -116,6 +117,13 @@ class _Helper:
             texts += self._read(deadline)
         return code, texts[: sizes[0]].decode("utf-8", "replace"), texts[sizes[0] :].decode("utf-8", "replace")
 
+    def wait_for_first(self) -> None:
+        """The process that was started here ends when it has made the one that stays."""
+        if not self._is_ready:
+            with contextlib.suppress(ChildProcessError):  # another waited for it
+                os.waitpid(self.group, 0)
+        self._is_ready = True
+
     def _read(self, deadline: float) -> bytes:
         poll = select.poll()
         poll.register(self.answers, select.POLLIN)
@@ -128,6 +136,7 @@ class _Helper:
 
     def close(self) -> None:
         """Let it end, when it has answered."""
+        self.wait_for_first()
         os.close(self.requests)
         os.close(self.answers)
 
@@ -161,6 +170,19 @@ def _helper() -> _Helper:
         return _Helper()
     except OSError as error:
         raise PydartError(f"cannot run {HELPER}: {error}; reinstall pydart2, or load with safe=False") from error
+
+
+@contextlib.contextmanager
+def getting_ready() -> Iterator[None]:
+    """Start a helper if none waits, which takes a while, beside what is done here."""
+    if not _idle:
+        with contextlib.suppress(PydartError):  # is told when it is needed
+            _idle.append(_helper())
+    try:
+        yield
+    finally:
+        for helper in _idle:
+            helper.wait_for_first()
 
 
 def _run(request: bytes, seconds: float, memory: float, who: str = "the engine") -> str | None:
