@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "base/fork.hpp"
+#include "collision/fcl_skin.hpp"
 #include "engine/shared_scenes.hpp"
 
 namespace pydart2 {
@@ -31,8 +32,7 @@ using namespace dart::dynamics;
 namespace {
 
 using Geometry = dart::collision::fcl::CollisionGeometry;
-using Volume = ::fcl::OBBRSS<double>;
-using Tree = ::fcl::BVHModel<Volume>;
+using Tree = SkinTree;
 
 void borrow_nodes(Tree& tree, const Tree& lender);
 void return_nodes(Tree& tree);
@@ -226,6 +226,18 @@ public:
   {
     mFCLCollisionObject = std::make_unique<dart::collision::fcl::CollisionObject>(geometry);
     mFCLCollisionObject->setUserData(this);
+  }
+
+protected:
+  void updateEngineData() override
+  {
+    const auto* skin = dynamic_cast<const SoftMeshShape*>(getShape().get());
+    if (skin == nullptr)
+      return FCLCollisionObject::updateEngineData();
+    const auto& geometry = *mFCLCollisionObject->collisionGeometry();
+    move_skin(const_cast<Tree&>(static_cast<const Tree&>(geometry)), const_cast<SoftMeshShape&>(*skin));
+    mFCLCollisionObject->setTransform(getTransform());
+    mFCLCollisionObject->computeAABB();
   }
 };
 

@@ -1,6 +1,7 @@
 #include "contact/constraint_matrix.hpp"
 
 #include <algorithm>
+#include <dart/dynamics/PointMass.hpp>
 
 namespace pydart2 {
 
@@ -9,6 +10,7 @@ namespace {
 using dart::constraint::ConstrainedGroup;
 using dart::constraint::ConstraintBase;
 using dart::dynamics::BodyNode;
+using dart::dynamics::PointMass;
 using dart::dynamics::SkeletonPtr;
 using engine::Rows;
 using engine::SumOrder;
@@ -40,6 +42,9 @@ void ConstraintMatrix::read(ConstrainedGroup& group, const std::vector<SkeletonP
 {
   trees_.clear();
   joint_readings_.clear();
+  points_.clear();
+  point_readings_.clear();
+  point_numbers_.clear();
   foreign_.clear();
   items_.resize(group.getNumConstraints());
   int rows = 0;
@@ -49,7 +54,7 @@ void ConstraintMatrix::read(ConstrainedGroup& group, const std::vector<SkeletonP
     engine::read_rows(*constraint, item.rows);
     item.begin = rows;
     item.end = rows += static_cast<int>(constraint->getDimension());
-    item.bodies = {none, none};
+    item.bodies = item.points = {none, none};
     item.by_engine = item.rows.kind == Rows::Kind::unknown;
     if (item.by_engine)
       find_foreign(*constraint, skeletons);
@@ -58,11 +63,8 @@ void ConstraintMatrix::read(ConstrainedGroup& group, const std::vector<SkeletonP
     if (item.rows.kind == Rows::Kind::joint)
       add_joint(item);
     else if (item.rows.kind == Rows::Kind::bodies)
-      for (const int side : {0, 1}) {
-        auto* body = item.rows.bodies.bodies[side];
-        if (body != nullptr)
-          item.bodies[side] = add(body, item);
-      }
+      for (const std::size_t side : {0, 1})
+        add_side(item, side);
   trees_.prepare();
 }
 
@@ -76,6 +78,41 @@ void ConstraintMatrix::find_foreign(ConstraintBase& constraint, const std::vecto
   constraint.unexcite();
 }
 
+bool ConstraintMatrix::is_foreign(const BodyNode& body) const
+{
+  return std::find(foreign_.begin(), foreign_.end(), body.getSkeleton().get()) != foreign_.end();
+}
+
+void ConstraintMatrix::add_side(Item& item, std::size_t side)
+{
+  const auto& rows = item.rows.bodies;
+  auto* body = rows.bodies[side];
+  const auto* point = rows.points[side];
+  if (point == nullptr) {
+    item.bodies[side] = body == nullptr ? none : add(body, item);
+  } else if (body->isReactive()) {
+    if (is_foreign(*body))
+      item.by_engine = true;
+    else
+      item.points[side] = add_point(*point, item, rows.directions[side]);
+  }
+}
+
+int ConstraintMatrix::add_point(const PointMass& mass, const Item& item, const engine::Directions& directions)
+{
+  const auto [number, is_new] = point_numbers_.try_emplace(&mass, static_cast<int>(points_.size()));
+  if (is_new)
+    points_.push_back({mass.getPsi(), none, none});
+  auto& point = points_[static_cast<std::size_t>(number->second)];
+  for (int row = item.begin; row < item.end; ++row) {
+    const int reading = static_cast<int>(point_readings_.size());
+    point_readings_.push_back({row, none, directions.col(row - item.begin).tail<3>()});
+    (point.last == none ? point.first : point_readings_[static_cast<std::size_t>(point.last)].next) = reading;
+    point.last = reading;
+  }
+  return number->second;
+}
+
 /// Number of a body that the rows of `item` act on, `none` if no impulse moves it or if it is the engine's affair.
 int ConstraintMatrix::add(BodyNode* body, Item& item)
 {
@@ -83,9 +120,7 @@ int ConstraintMatrix::add(BodyNode* body, Item& item)
   if (number == none) {
     if (item.rows.kind == Rows::Kind::bodies && !body->isReactive())
       return none;
-    const auto skeleton = body->getSkeleton();
-    const bool foreign = std::find(foreign_.begin(), foreign_.end(), skeleton.get()) != foreign_.end();
-    if (foreign || skeleton->getNumSoftBodyNodes() > 0) { // the point masses of a soft body move on their own
+    if (is_foreign(*body)) {
       item.by_engine = true;
       return none;
     }
@@ -161,6 +196,9 @@ void ConstraintMatrix::fill_rows(const Item& item, double time_step, Matrix& A)
       read_tree(trees_.tree(body1), item.begin, out);
     if (body2 != none && (body1 == none || trees_.tree(body1) != trees_.tree(body2)))
       read_tree(trees_.tree(body2), item.begin, out);
+    for (const std::size_t side : {0, 1})
+      if (item.points[side] != none)
+        read_point(item.points[side], item, item.rows.bodies.directions[side].col(row - item.begin).tail<3>(), out);
 
     out[row] += out[row] * item.rows.force_mixing;
     if (item.rows.kind == Rows::Kind::bodies && row > item.begin && row <= item.begin + 2)
@@ -210,6 +248,19 @@ void ConstraintMatrix::read_body(int body, int first_row, double* out)
     sum(SumOrder(order), product, values_.data(), size);
     for (int i = 0; i < size; ++i)
       out[direction_rows_[start + i]] += values_[i];
+  }
+}
+
+/// What rows read of a point that gets an impulse of a row of `item`.
+void ConstraintMatrix::read_point(int number, const Item& item, const Eigen::Vector3d& impulse, double* out) const
+{
+  const auto& point = points_[static_cast<std::size_t>(number)];
+  const Eigen::Vector3d change = point.inverse_mass * impulse;
+  for (int i = point.first; i != none;) {
+    const auto& reading = point_readings_[static_cast<std::size_t>(i)];
+    if (reading.row >= item.begin)
+      out[reading.row] += reading.direction.dot(change);
+    i = reading.next;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <dart/constraint/ConstrainedGroup.hpp>
 #include <dart/dynamics/Skeleton.hpp>
+#include <unordered_map>
 #include <vector>
 
 #include "dynamics/tree_impulses.hpp"
@@ -17,7 +18,8 @@ namespace pydart2 {
 ///
 /// DART sends each unit impulse through the whole skeleton and lets every constraint read its rows. Here it travels
 /// only through bodies that bear a row and their ancestors (TreeImpulses), and each body reads the rows that it bears
-/// at once. Constraints that this does not know, and those on the same skeletons as these, take DART's way.
+/// at once. A point of a soft body answers to the impulses at itself, with its own mass, and to no others: what its body
+/// moves by it takes back. Constraints that this does not know, and those on the same skeletons as these, take DART's way.
 class ConstraintMatrix
 {
 public:
@@ -42,6 +44,7 @@ private:
     engine::Rows rows;
     int begin = 0, end = 0; ///< Its rows.
     std::array<int, 2> bodies{TreeImpulses::none, TreeImpulses::none};
+    std::array<int, 2> points{TreeImpulses::none, TreeImpulses::none}; ///< Of soft bodies, in the bodies' place.
     bool by_engine = false; ///< Its rows take DART's way.
   };
 
@@ -51,8 +54,25 @@ private:
     int row, body, dof;
   };
 
+  /// A point of a soft body, and the first of its readings in the list and the last.
+  struct Point
+  {
+    double inverse_mass;
+    int first, last;
+  };
+
+  /// A row that reads the velocity change of a point, and the next one of this point.
+  struct PointReading
+  {
+    int row, next;
+    Eigen::Vector3d direction;
+  };
+
   void find_foreign(dart::constraint::ConstraintBase& constraint, const std::vector<dart::dynamics::SkeletonPtr>& all);
+  bool is_foreign(const dart::dynamics::BodyNode& body) const;
+  void add_side(Item& item, std::size_t side);
   int add(dart::dynamics::BodyNode* body, Item& item);
+  int add_point(const dart::dynamics::PointMass& point, const Item& item, const engine::Directions& directions);
   void add_joint(Item& item);
   void gather_readings();
 
@@ -60,12 +80,16 @@ private:
   void push(const Item& item, int row);
   void read_tree(int tree, int first_row, double* out);
   void read_body(int body, int first_row, double* out);
+  void read_point(int point, const Item& item, const Eigen::Vector3d& impulse, double* out) const;
   void fill_rows_by_engine(dart::constraint::ConstrainedGroup& group, std::size_t index, Matrix& A) const;
 
   TreeImpulses trees_;
   std::vector<Item> items_;
   std::vector<const Skeleton*> foreign_; ///< Skeletons that constraints of unknown kinds act on.
   std::vector<JointReading> joint_readings_;
+  std::vector<Point> points_;
+  std::vector<PointReading> point_readings_;
+  std::unordered_map<const dart::dynamics::PointMass*, int> point_numbers_;
 
   // Directions of all rows at bodies, a column each, component by component in memory; sorted by body, order of
   // summation and row. A body's columns of one order run from starts_ to ends_; starts_ moves past rows that are done.

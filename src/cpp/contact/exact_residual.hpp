@@ -15,6 +15,8 @@ public:
       const Matrix& A, const Eigen::VectorXd& b, const Eigen::VectorXd& lo, const Eigen::VectorXd& hi,
       const Eigen::VectorXi& findex);
 
+  const Matrix& matrix() const { return A_; }
+
   /// The largest A_ii |x_i - P(x_i - w_i / A_ii)| over the rows, P the projection on the bounds.
   double of(const Eigen::VectorXd& x) const;
 

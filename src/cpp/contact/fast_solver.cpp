@@ -313,16 +313,16 @@ void FastConstraintSolver::solve_lcp(ConstrainedGroup& group)
                                  static_cast<int>(mX.size()), mA.data(), mX.data(), mB.data(), 0, mLo.data(), mHi.data(),
                                  mFIndex.data(), has_second);
   if (has_second && (!solved || mX.hasNaN()))
-    solve_lcp_again(group);
+    solve_lcp_again();
   if (mX.hasNaN()) {
     dterr << "[FastConstraintSolver] The contact and joint impulses are not numbers; this step has none.\n";
     mX.setZero();
   }
 }
 
-void FastConstraintSolver::solve_lcp_again(ConstrainedGroup& group)
+void FastConstraintSolver::solve_lcp_again()
 {
-  matrix_.fill(group, mTimeStep, mA);
+  mA = problem_.matrix();
   mSecondaryBoxedLcpSolver->solve(
       static_cast<int>(mX.size()),
       mA.data(),

@@ -106,7 +106,7 @@ private:
   void check_memory(const dart::constraint::ConstrainedGroup& group) const;
   void read_terms(dart::constraint::ConstrainedGroup& group);
   void solve_lcp(dart::constraint::ConstrainedGroup& group);
-  void solve_lcp_again(dart::constraint::ConstrainedGroup& group);
+  void solve_lcp_again();
 
   Solver solver_ = Solver::fast;
   bool contact_reduction_ = false;

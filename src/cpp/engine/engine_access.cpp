@@ -5,6 +5,7 @@
 #include <dart/constraint/JointConstraint.hpp>
 #include <dart/constraint/JointCoulombFrictionConstraint.hpp>
 #include <dart/constraint/MimicMotorConstraint.hpp>
+#include <dart/constraint/SoftContactConstraint.hpp>
 #include <dart/constraint/WeldJointConstraint.hpp>
 #include <typeinfo>
 
@@ -39,6 +40,8 @@ using Weld = WeldJointConstraint;
 using Ball = BallJointConstraint;
 using Friction = JointCoulombFrictionConstraint;
 using Mimic = MimicMotorConstraint;
+using Soft = SoftContactConstraint;
+using SoftJacobians = dart::common::aligned_vector<Eigen::Vector6d>;
 
 struct ContactBodyA : Private<ContactConstraint, BodyNode*> { friend constexpr type member(ContactBodyA); };
 struct ContactBodyB : Private<ContactConstraint, BodyNode*> { friend constexpr type member(ContactBodyB); };
@@ -56,6 +59,12 @@ struct Tangents
   using type = Eigen::Matrix<double, 3, 2> (ContactConstraint::*)(const Eigen::Vector3d&);
   friend constexpr type member(Tangents);
 };
+struct SoftBody1 : Private<Soft, BodyNode*> { friend constexpr type member(SoftBody1); };
+struct SoftBody2 : Private<Soft, BodyNode*> { friend constexpr type member(SoftBody2); };
+struct SoftPoint1 : Private<Soft, PointMass*> { friend constexpr type member(SoftPoint1); };
+struct SoftPoint2 : Private<Soft, PointMass*> { friend constexpr type member(SoftPoint2); };
+struct SoftJacobians1 : Private<Soft, SoftJacobians> { friend constexpr type member(SoftJacobians1); };
+struct SoftJacobians2 : Private<Soft, SoftJacobians> { friend constexpr type member(SoftJacobians2); };
 struct DynamicBody1 : Private<DynamicJointConstraint, BodyNode*> { friend constexpr type member(DynamicBody1); };
 struct DynamicBody2 : Private<DynamicJointConstraint, BodyNode*> { friend constexpr type member(DynamicBody2); };
 struct BallJacobian1 : Private<Ball, BallJacobian> { friend constexpr type member(BallJacobian1); };
@@ -83,6 +92,12 @@ template struct Reveal<PrimarySlip, &ContactConstraint::mPrimarySlipCompliance>;
 template struct Reveal<SecondarySlip, &ContactConstraint::mSecondarySlipCompliance>;
 template struct Reveal<ContactOf, &ContactConstraint::getContact>;
 template struct Reveal<Tangents, &ContactConstraint::getTangentBasisMatrixODE>;
+template struct Reveal<SoftBody1, &Soft::mBodyNode1>;
+template struct Reveal<SoftBody2, &Soft::mBodyNode2>;
+template struct Reveal<SoftPoint1, &Soft::mPointMass1>;
+template struct Reveal<SoftPoint2, &Soft::mPointMass2>;
+template struct Reveal<SoftJacobians1, &Soft::mJacobians1>;
+template struct Reveal<SoftJacobians2, &Soft::mJacobians2>;
 template struct Reveal<DynamicBody1, &DynamicJointConstraint::mBodyNode1>;
 template struct Reveal<DynamicBody2, &DynamicJointConstraint::mBodyNode2>;
 template struct Reveal<BallJacobian1, &Ball::mJacobian1>;
@@ -114,6 +129,30 @@ BodyRows contact_rows(const ContactConstraint& contact)
       {contact.*member(ContactBodyA()), contact.*member(ContactBodyB())},
       {contact.*member(ContactNormalA()), contact.*member(ContactNormalB())},
       {contact.*member(PrimarySlip()), contact.*member(SecondarySlip())}};
+}
+
+Directions columns(const SoftJacobians& jacobians)
+{
+  Directions directions(6, static_cast<Eigen::Index>(jacobians.size()));
+  for (Eigen::Index i = 0; i < directions.cols(); ++i)
+    directions.col(i) = jacobians[static_cast<std::size_t>(i)];
+  return directions;
+}
+
+/// Of a contact with a soft body; false within a skeleton, where the engine lets one side's impulse take the place of
+/// the other's.
+bool read_soft_contact(const Soft& contact, BodyRows& rows)
+{
+  auto *body1 = contact.*member(SoftBody1()), *body2 = contact.*member(SoftBody2());
+  if (body1->getSkeleton() == body2->getSkeleton())
+    return false;
+  rows = {
+      contact_orders,
+      {body1, body2},
+      {columns(contact.*member(SoftJacobians1())), columns(contact.*member(SoftJacobians2()))},
+      {0.0, 0.0},
+      {contact.*member(SoftPoint1()), contact.*member(SoftPoint2())}};
+  return true;
 }
 
 /// Of joints between two bodies: the first moves with the joint, the second against it.
@@ -197,6 +236,11 @@ void read_rows(const ConstraintBase& constraint, Rows& rows)
     rows.kind = Rows::Kind::bodies;
     rows.bodies = contact_rows(static_cast<const ContactConstraint&>(constraint));
     rows.force_mixing = ContactConstraint::getConstraintForceMixing();
+  } else if (type == typeid(Soft)) {
+    if (!read_soft_contact(static_cast<const Soft&>(constraint), rows.bodies))
+      return;
+    rows.kind = Rows::Kind::bodies;
+    rows.force_mixing = Soft::getConstraintForceMixing();
   } else if (type == typeid(Weld)) {
     const auto& weld = static_cast<const Weld&>(constraint);
     rows.kind = Rows::Kind::bodies;

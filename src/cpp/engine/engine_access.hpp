@@ -22,13 +22,14 @@ enum class SumOrder {
   sequence ///< One after the other: its first two rows, and a weld joint's 6x6 Jacobian.
 };
 
-/// A constraint of one or two bodies: contact, ball joint, weld joint, distance. A missing body is null.
+/// A constraint of one or two bodies: contact, also of soft ones, ball joint, weld joint, distance. A missing body is null.
 struct BodyRows
 {
   std::array<SumOrder, 6> orders; ///< Of each row.
   std::array<dart::dynamics::BodyNode*, 2> bodies;
   std::array<Directions, 2> directions;
   std::array<double, 2> slip{0.0, 0.0}; ///< A contact's slip compliance in its two tangential rows.
+  std::array<dart::dynamics::PointMass*, 2> points{}; ///< Of soft bodies, which the linear parts act on in their place.
 };
 
 /// A constraint of the degrees of freedom of one joint: limits and servo, Coulomb friction, mimic motor.
