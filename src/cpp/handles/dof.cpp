@@ -6,6 +6,16 @@
 
 namespace pydart2 {
 
+namespace {
+
+/// The engine does not see that what opposes a motion, and so the articulated inertia, has changed until the robot moves.
+void forget_inertia(dart::dynamics::DegreeOfFreedom& dof)
+{
+  dof.getSkeleton()->dirtyArticulatedInertia(dof.getTreeIndex());
+}
+
+} // namespace
+
 DofHandle::DofHandle(WorldRef world, SkeletonRef skeleton, dart::dynamics::DegreeOfFreedom* dof)
   : dof_(std::move(world), std::move(skeleton), dof)
 {
@@ -201,6 +211,7 @@ void DofHandle::set_spring_stiffness(double stiffness)
 {
   check::not_negative(stiffness, "spring stiffness");
   dof_->setSpringStiffness(stiffness);
+  forget_inertia(*dof_);
 }
 
 double DofHandle::rest_position() const
@@ -223,6 +234,7 @@ void DofHandle::set_damping_coefficient(double coefficient)
 {
   check::not_negative(coefficient, "damping coefficient");
   dof_->setDampingCoefficient(coefficient);
+  forget_inertia(*dof_);
 }
 
 double DofHandle::armature() const
@@ -241,7 +253,7 @@ void DofHandle::set_armature(double inertia)
     dof_.skeleton->armature[dof] = inertia;
   else
     dof_.skeleton->armature.erase(dof);
-  dof->getSkeleton()->dirtyArticulatedInertia(dof->getTreeIndex());
+  forget_inertia(*dof);
 }
 
 double DofHandle::coulomb_friction() const

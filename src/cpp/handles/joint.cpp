@@ -37,6 +37,13 @@ constexpr std::pair<Joint::ActuatorType, const char*> actuators[] = {
     {Joint::LOCKED, "LOCKED"},
 };
 
+/// The engine does not see that the articulated inertia is another one until the robot moves.
+void use_actuator(Joint& joint, Joint::ActuatorType type)
+{
+  joint.setActuatorType(type);
+  joint.getChildBodyNode()->dirtyArticulatedInertia();
+}
+
 [[noreturn]] void wrong_type(const Joint& joint, const char* asked)
 {
   throw Error(Kind::type, "joint '" + joint.getName() + "' is a " + joint.getType() + " and has no " + asked);
@@ -105,7 +112,7 @@ void JointHandle::set_actuator_type(const std::string& type)
     throw Error(Kind::value, "joint '" + name() + "' follows no joint yet; use set_mimic(joint, multiplier, offset)");
   for (const auto& [value, name] : actuators)
     if (name == type) {
-      joint_->setActuatorType(value);
+      use_actuator(*joint_, value);
       joint_.skeleton->limits_checked = false;
       return;
     }
@@ -121,7 +128,7 @@ void JointHandle::set_mimic(const JointHandle& other, double multiplier, double 
   if (other.num_dofs() != num_dofs())
     throw Error(Kind::value, "joint '" + name() + "' can follow a joint with as many dofs only");
   joint_->setMimicJoint(other.joint_.get(), multiplier, offset);
-  joint_->setActuatorType(Joint::MIMIC);
+  use_actuator(*joint_, Joint::MIMIC);
   joint_.skeleton->limits_checked = false;
 }
 
