@@ -96,6 +96,24 @@ def test_depths_of_random_pairs(tmp_path: Path, a: str, b: str) -> None:
     assert touching >= 3
 
 
+@pytest.mark.parametrize("shape", ["cylinder", "cone"])
+def test_a_disc_that_is_hardly_tilted_rests_on_more_than_a_point(shape: str) -> None:
+    """Whichever way it leans, also where its lowest point is next to one of the corners that stand for its rim."""
+    world = pydart2.World(0.001, up="z")
+    world.set_collision_detector("native")
+    world.add_ground()
+    body = world.add_empty_skeleton("body")
+    part = body.add_body("part", position=(0.0, 0.0, 0.48))
+    part.add_cylinder(0.5, 1.0) if shape == "cylinder" else part.add_cone(0.5, 1.0)
+    height = body.q[5]
+    for way in np.linspace(0.0, 2.0 * np.pi, 181):
+        for angle in (1e-5, 1e-3, 4e-3):
+            body.q = [angle * np.cos(way), angle * np.sin(way), 0.0, 0.0, 0.0, height]
+            places = np.array([contact.point[:2] for contact in contacts_of(world)])
+            assert len(places) >= 3, (way, angle)
+            assert np.ptp(places, axis=0).min() > 0.5
+
+
 @pytest.mark.parametrize(("a", "b"), list(itertools.combinations(SHAPES, 2)))
 def test_the_order_of_two_shapes_does_not_matter(tmp_path: Path, a: str, b: str) -> None:
     rng = np.random.default_rng(5)

@@ -13,6 +13,7 @@ namespace {
 constexpr double loose = 0.3; // sine of the angle up to which an edge or face lies on another face
 constexpr double tight = 1e-3; // and up to which a direction is a face's own
 constexpr int disc_on = 8, disc_under = 16; // corners of a disc that lies on a face, and that carries one
+constexpr double rim = 1e-5; // of the size: how much deeper than its corners a disc may be without a point of its own
 
 /// Two segments' points that are nearest to each other; segments may be points.
 std::pair<Vector, Vector> nearest_points(const Feature& a, const Feature& b)
@@ -195,7 +196,7 @@ private:
     const auto begin = points_.size();
     add_on_face(normal, of_a);
     for (auto i = begin; i < points_.size(); ++i)
-      if (points_[i].depth >= depth - 1e-7 * size_) {
+      if (points_[i].depth >= depth - rim * size_) {
         keep_four(points_, begin, size_);
         return true;
       }
@@ -220,7 +221,7 @@ private:
     double deepest = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < other.count; ++i)
       deepest = std::max(deepest, normal.dot(face[0] - other[i]));
-    if (depth > deepest + 1e-5 * size_ && depth >= -margin_ && holds(face, lowest, 0.0))
+    if (depth > deepest + rim * size_ && depth >= -margin_ && holds(face, lowest, 0.0))
       points_.push_back({lowest + normal * (depth / 2.0), sign * normal, depth, other.code << 12 | 0xfffU});
   }
 
@@ -314,7 +315,7 @@ void collide_plane(const Geometry& plane, const Geometry& b, const Pose& pose, d
   double deepest = -std::numeric_limits<double>::infinity();
   for (auto i = begin; i < points.size(); ++i)
     deepest = std::max(deepest, points[i].depth);
-  if (depth > deepest + 1e-5 * b.size) // between the corners of a disc's rim
+  if (depth > deepest + rim * b.size) // between the corners of a disc's rim
     points.push_back({lowest + plane.normal * (depth / 2.0 - b.radius), -plane.normal, depth, 0xfffU});
   keep_four(points, begin, b.size);
 }
