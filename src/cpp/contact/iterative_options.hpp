@@ -18,7 +18,7 @@ struct IterativeOptions
   Friction friction = Friction::pyramid;
   bool split = true;           ///< Depth is taken away by moving bodies, not by velocities (else as the engine does).
   double error_reduction = 0.2; ///< The part of the depth that goes in a step.
-  double allowance = 5e-6;      ///< m: the depth that stays.
+  double allowance = 1e-6;      ///< m: the depth that stays.
   double correction_speed = 1.0; ///< m/s: at most this fast.
   int threads = 1;               ///< That solve the groups; results do not depend on it.
 };
