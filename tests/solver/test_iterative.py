@@ -233,6 +233,34 @@ def test_residual_of_the_exact_solvers(solver: str) -> None:
     assert tall.solver_residual() > 1e-3
 
 
+@pytest.mark.parametrize("friction", ["pyramid", "cone", "engine"])
+def test_a_light_ball_below_a_ton(friction: str) -> None:
+    """Masses that are ten thousand apart: the heavy one falls on the other, which then rolls below it."""
+    world = floor()
+    world.set_collision_detector("native")
+    world.set_constraint_solver("iterative", friction=friction)
+    ball = world.add_sphere(0.05, 0.1, (0.0, 0.05, 0.0))
+    heavy = world.add_box((0.4, 0.4, 0.4), 1000.0, (0.0, 0.3001, 0.0))
+    heavy.dq = [0.0, 0.0, 0.0, 2.0, -1.0, 0.5]
+    for _ in range(20):
+        world.step()
+        assert world.solver_residual() <= 1e-2
+        assert ball.C[1] > 0.05 - 1e-3
+
+
+def test_residual_of_a_cone_where_it_slides() -> None:
+    """Slip is against friction along any direction, also where a tangent moves more easily than the other."""
+    world = floor(friction=0.3)
+    world.set_collision_detector("native")
+    world.set_constraint_solver("iterative", friction="cone", tolerance=1e-10, iterations=1000)
+    rod = world.add_box((1.0, 0.1, 0.1), 1.0, (0.0, 0.05, 0.0), friction=0.3)
+    rod.dq = [0.0, 2.0, 0.0, 1.0, 0.0, 0.7]
+    for _ in range(20):
+        world.step()
+        assert np.linalg.norm(rod.dC) > 0.5
+        assert world.solver_residual() < 1e-7
+
+
 def test_threads_do_not_change_results() -> None:
     """Groups are solved by several threads, in a batch by one."""
     worlds = []

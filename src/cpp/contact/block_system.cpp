@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "contact/newton_steps.hpp"
 
 namespace pydart2 {
 
@@ -11,6 +14,8 @@ namespace {
 using Friction = IterativeOptions::Friction;
 
 constexpr int inner_sweeps = 10; // of one block's rows
+constexpr double rough = 1e-2; // m/s: a residual with which bodies visibly get into each other
+constexpr int newton_steps = 20;
 
 } // namespace
 
@@ -140,6 +145,8 @@ Swept Sweeps::solve(const Island& island)
   begin(island);
   swept.sweeps = std::max(swept.sweeps, sweep(island));
   swept.residual = measure(island);
+  if (swept.residual > rough && island.rows <= NewtonSteps::most_rows)
+    swept.residual = refine(island, swept.residual);
   return swept;
 }
 
@@ -167,11 +174,7 @@ int Sweeps::sweep(const Island& island)
   for (int sweep = 1;; ++sweep) {
     last_x_ = x;
     last_velocities_ = velocities;
-    double change = 0.0;
-    for (int i = island.first; i < island.last; ++i)
-      change = std::max(change, with_view(system_.blocks[static_cast<std::size_t>(i)], [this](auto& view) {
-        return solve_block(view);
-      }));
+    const double change = pass(island);
     if (sweep == options_.iterations || change <= options_.tolerance)
       return sweep; // what is handed out is within its bounds
     last_x_ = x - last_x_;
@@ -188,6 +191,37 @@ int Sweeps::sweep(const Island& island)
     along_x_ = share * along_x_ + last_x_;
     along_velocities_ = share * along_velocities_ + last_velocities_;
   }
+}
+
+/// Each block once; the largest change of a velocity.
+double Sweeps::pass(const Island& island)
+{
+  double change = 0.0;
+  for (int i = island.first; i < island.last; ++i)
+    change = std::max(change, with_view(system_.blocks[static_cast<std::size_t>(i)], [this](auto& view) {
+      return solve_block(view);
+    }));
+  return change;
+}
+
+/// Where sweeps do not get near, as with a light body below a heavy one: the residual of the best that was found.
+double Sweeps::refine(const Island& island, double residual)
+{
+  NewtonSteps newton(system_, island, options_.friction == Friction::cone, frozen_);
+  auto x = system_.x.segment(island.row, island.rows);
+  last_x_ = x;
+  for (int step = 0; step < newton_steps && residual > options_.tolerance && x.allFinite(); ++step) {
+    newton.step();
+    begin(island);
+    pass(island);
+    if (const double now = measure(island); now < residual) {
+      residual = now;
+      last_x_ = x;
+    }
+  }
+  x = last_x_;
+  begin(island);
+  return residual;
 }
 
 /// Bounds of a row, where a friction row follows the impulses x of its block.
@@ -294,19 +328,22 @@ double Sweeps::residual_of(V& view) const
 {
   using Vector = typename V::Vector;
   const Vector now = view.x, w = view.velocity() + view.mixing.cwiseProduct(now) - view.b;
-  double largest = 0.0;
+  const bool cone = is_cone(view);
+  const double across = cone ? std::max(view.W(1, 1), view.W(2, 2)) : 0.0; // of both tangents
+  Vector next = now;
   for (int row = 0; row < view.block.size; ++row) {
-    Vector next = now;
-    next[row] -= w[row] / view.W(row, row);
+    next[row] -= w[row] / (cone && row > 0 ? across : view.W(row, row));
     double lo, hi;
     bounds(view, row, now, lo, hi);
-    if (row > 0 && is_cone(view))
-      project(view, next);
-    else
+    if (!cone || row == 0)
       next[row] = std::clamp(next[row], lo, hi);
-    largest = std::max(largest, view.W(row, row) * std::abs(next[row] - now[row]));
   }
-  return largest;
+  if (cone) {
+    const double normal = std::exchange(next[0], now[0]);
+    project(view, next);
+    next[0] = normal;
+  }
+  return (next - now).cwiseAbs().cwiseProduct(view.W.diagonal()).maxCoeff();
 }
 
 bool Sweeps::find_corrections(const Island& island, double time_step, Eigen::VectorXd& out)

@@ -91,7 +91,9 @@ private:
 
   void begin(const Island& island);
   int sweep(const Island& island);
+  double pass(const Island& island);
   double measure(const Island& island);
+  double refine(const Island& island, double residual);
 
   template <class V, class Vector>
   void bounds(const V& view, int row, const Vector& x, double& lo, double& hi) const;
