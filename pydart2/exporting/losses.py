@@ -77,6 +77,9 @@ class Losses:
         """Note what there is of a skeleton besides joints, masses and shapes, but for what is held."""
         for words in skel.constraints:
             self.add("constraints", words)
+        for what, names in skel.besides.items():
+            for name in names:
+                self.add(what, name)
         for one, two in () if "pairs" in held else skel.pairs:
             self.add_pair(one, two)
         if not skel.mobile and "mobile" not in held:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from pydart2.world import World
 
 Array = NDArray[np.float64]
+_USUAL = (1, 0xFFFFFFFF)  # group and mask of a body that was put in none
 _KINDS = {engine: kind for kind, engine in JOINTS.items()}
 
 
@@ -155,6 +156,8 @@ class SkeletonPart:
         The names of bodies of it that pass through each other.
     constraints
         Those of the world that hold a body of it, in words.
+    besides
+        What no format has: what it is, then the name of each.
     """
 
     name: str
@@ -164,6 +167,7 @@ class SkeletonPart:
     adjacent: bool
     pairs: list[tuple[str, str]] = field(default_factory=list)
     constraints: list[str] = field(default_factory=list)
+    besides: dict[str, list[str]] = field(default_factory=dict)
 
 
 @dataclass
@@ -221,7 +225,23 @@ def skeleton_part(skel: Skeleton) -> SkeletonPart:
         adjacent=skel.adjacent_body_check(),
         pairs=[(one[1], two[1]) for one, two in _pairs(skel.world) if one[0] == two[0] == skel.name],
         constraints=[_words(held) for held in skel.world.constraints if _holds(held, skel)],
+        besides=_besides(skel),
     )
+
+
+def _besides(skel: Skeleton) -> dict[str, list[str]]:
+    targets = skel.targets
+    return {
+        "targets (set_targets)": [
+            dof.name for dof in skel.dofs if targets is not None and (targets.kp[dof.id] or targets.kd[dof.id])
+        ],
+        "collision groups (set_collision_group)": [
+            body.name for body in skel.bodynodes if skel.world.collision_group(body) != _USUAL
+        ],
+        "muscles": [
+            str(mtu.name) for mtu, _ in getattr(skel, "muscles", ())
+        ],  # a skeleton does not know its subclasses
+    }
 
 
 def _holds(constraint: Constraint, skel: Skeleton) -> bool:

@@ -336,7 +336,11 @@ def test_what_is_between_bodies_is_said(title: str, caplog: pytest.LogCaptureFix
     filtered.add_to_black_list(skel.body("link1"), skel.body("link3"))
     filtered.add_to_black_list(skel.body("link1"), box.body(0))
     pydart.constraints.WeldJointConstraint(skel.body("link2"), None).add_to_world(skel.world)
+    skel.set_targets({"link1_joint": 0.5}, kp=10.0)
+    skel.world.set_collision_group(skel.body("link2"), 2)
     said = losses_of(skel, title, caplog)
+    assert "targets (set_targets) ('link1_joint')" in said
+    assert "collision groups (set_collision_group) ('link2')" in said
     assert "constraints ('link2 and the world')" in said
     assert "bodies that pass through each other (create_collision_filter) ('link1 and link3')" in said
     assert before.removeprefix(f"'numbered': not in {title}: ") in said

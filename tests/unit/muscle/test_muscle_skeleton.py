@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pydart2 import NameNotFound, PydartError, Skeleton
+from pydart2 import ExportError, NameNotFound, PydartError, Skeleton
 from pydart2.muscle import MTU, Route
 from pydart2.muscle.skeleton import MusculoSkeleton
 
@@ -208,3 +208,8 @@ def test_a_body_with_a_muscle_stays(limb: MusculoSkeleton) -> None:
     limb.update_route_geometry()
     limb.muscles.clear()
     assert limb.detach("foot").bodynodes[0].name == "foot"
+
+
+def test_a_file_has_no_muscles(limb: MusculoSkeleton) -> None:
+    with pytest.raises(ExportError, match=r"muscles \('front', 'back'\)"):
+        limb.to_skel(strict=True)
