@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2._native import BatchHandle
 from pydart2.inverse_kinematics import IKResults, Target, solve_each
+from pydart2.memory import available_bytes, resident_bytes
 from pydart2.skel_vector import DofArray
 
 if TYPE_CHECKING:
@@ -47,6 +48,21 @@ class Trajectories:
         return f"[Trajectories: {worlds} worlds, {frames - 1} actions, {dofs} dofs, {len(self.failed)} failed]"
 
 
+def _clones(world: World, n: int) -> list[World]:
+    """Clones; ValueError as soon as it shows that there is no memory for so many."""
+    worlds: list[World] = []
+    before = resident_bytes()
+    for made in range(n):
+        if made >= 16 and made & (made - 1) == 0:  # each power of two
+            each = (resident_bytes() - before) / made
+            needed, free = each * (n - made), available_bytes()
+            if needed > free:
+                take = f"{n} worlds of {each / 1e6:.2g} MB each are {each * n / 1e9:.3g} GB"
+                raise ValueError(f"{take}, and {free / 1e9:.3g} GB are free; make a smaller batch")
+        worlds.append(world.clone())
+    return worlds
+
+
 class Batch:
     """N copies of a world, stepped side by side; arrays have one row per world.
 
@@ -65,7 +81,7 @@ class Batch:
     world
         What the worlds are copies of. No controller may be set: the steps run in C++ without Python.
     n
-        How many worlds.
+        How many worlds; ValueError if there is no memory for them.
     threads
         How many threads; default: as many as there are processors. The ODE detector allows only one.
     skeleton
@@ -82,7 +98,7 @@ class Batch:
             raise TypeError(f"a batch is of a world and how many: Batch(world, 64), not {n!r}")
         if n < 1:
             raise ValueError(f"a batch needs one world or more, got {n}")
-        self._begin([world.clone() for _ in range(n)], threads or len(os.sched_getaffinity(0)), skeleton)
+        self._begin(_clones(world, n), threads or len(os.sched_getaffinity(0)), skeleton)
         self._start = self.worlds[0].snapshot()
 
     def _begin(self, worlds: list[World], threads: int, skeleton: int) -> None:

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+MOST_RAYS = 10_000_000
+
 
 class Sampled:
     """Something that is looked at some times in a second of a world's time.
@@ -335,6 +337,8 @@ class Lidar(Sensor):
     @staticmethod
     def fan(angle: float, n: int) -> Array:
         """Directions in the x-y plane from -angle / 2 to angle / 2 (rad) about x, shape (n, 3), of length 1."""
+        if not 0 < n <= MOST_RAYS:
+            raise ValueError(f"a fan has 1 to {MOST_RAYS:,} rays, got {n}")
         angles = np.linspace(-angle / 2.0, angle / 2.0, n)
         return np.stack([np.cos(angles), np.sin(angles), np.zeros(n)], axis=1)
 

@@ -210,8 +210,8 @@ def batch(h: Hands) -> None:
     n = made.skeleton.ndofs
     h.random.choice(
         [
-            lambda: made.step(h.odd(3)),
-            lambda: made.rollout(None, h.odd(np.zeros((3, 3, n)), 0.2), hold=h.odd(2)),
+            lambda: made.step(h.count(3)),
+            lambda: made.rollout(None, h.odd(np.zeros((3, 3, n)), 0.2), hold=h.count(2)),
             lambda: made.set_mass(h.body().name, h.vector(3, 1.0, False)),
             lambda: setattr(made, "q", h.odd(np.zeros((3, n)))),
             lambda: made.contacts,

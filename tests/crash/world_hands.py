@@ -55,6 +55,11 @@ class Hands:
             return self.odd(self.random.choice(EXTREMES), 0.3)
         return typical * math.exp(self.random.gauss(0.0, 0.7)) * (self.random.choice((1, -1)) if sign else 1)
 
+    def count(self, typical: int) -> Any:
+        """Of steps: an int is one that ends before tomorrow."""
+        value = self.odd(typical)
+        return value if not isinstance(value, int) or abs(value) < 100 else typical
+
     def vector(self, n: int = 3, typical: float = 1.0, sign: bool = True) -> Any:
         if self.random.random() < 0.9:
             values = [typical * math.exp(self.random.gauss(0.0, 0.7)) for _ in range(n)]

@@ -168,6 +168,9 @@ def test_a_fan_of_rays() -> None:
         Lidar(body, [[0.0, 0.0, 0.0]])
     with pytest.raises(ValueError, match="a sensor sits on a body"):
         Lidar(SimpleFrame(None), rays)
+    for many in (0, -1, 2**31, 10**30):  # of which NumPy would fill the memory with 50 GB
+        with pytest.raises(ValueError, match="a fan has 1 to 10,000,000 rays, got"):
+            Lidar.fan(np.pi, many)
     with pytest.raises(TypeError, match="a sensor sits on a body or a SimpleFrame"):
         Lidar("sphere", rays)  # type: ignore[arg-type]
 

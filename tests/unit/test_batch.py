@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import pickle
+import re
+import subprocess
+import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -224,6 +227,24 @@ def test_what_is_refused() -> None:
     world.skeletons[-1].controller = Controller()
     with pytest.raises(ValueError, match="a batch runs no controllers"):
         Batch(world, 2)
+
+
+@pytest.mark.parametrize("limit", ["", "import resource; resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))"])
+def test_more_worlds_than_memory_holds(limit: str) -> None:
+    """It says so while there is room, where the system would end the process."""
+    code = f"""
+import pydart2
+{limit}
+world = pydart2.World(0.001, "skel/fullbody1.skel")
+try:
+    pydart2.Batch(world, 2**31)
+except ValueError as error:
+    print(error)
+pydart2.Batch(world, 40).step()
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert re.match(r"2147483648 worlds of [\d.]+ MB each are [\d.e+]+ GB, and [\d.]+ GB are free; make", done.stdout)
 
 
 def test_ode_takes_one_thread() -> None:
