@@ -125,6 +125,10 @@ class Skeleton(Dynamics, TargetControl, ShortForms, SavedSkeleton, Assignable):
         kept = {name: value for name, value in self.__dict__.items() if name not in _BUILT}
         return part_of, (self.world, "skeletons", self.id), kept
 
+    def __setstate__(self, kept: dict[str, object]) -> None:
+        self.__dict__.update(kept)
+        self._handle.set_controlled(self._controller is not None)
+
     def set_position_limits_enforced(self, enforced: bool = True) -> None:
         """Let all its joints stop at their position limits, or not, as the engine has it.
 

@@ -184,7 +184,10 @@ def axes_of(kind: str, axis: ArrayLike | None) -> ArrayLike:
 def check_joint(
     name: str, kind: str, pitch: float, order: str, limits: ArrayLike | None, numbers: dict[str, ArrayLike | None]
 ) -> None:
-    """ValueError unless the joint of a body can have all of it, so that none is half made; see add_body()."""
+    """ValueError unless the joint of a body can have all of it, so that none is half made; see add_body().
+
+    `limits` have the shape (2,) or (n, 2), `numbers` (n,) or none, in rad or m and as add_body() says.
+    """
     n = _DOFS.get(kind, 1)
     if not math.isfinite(pitch):
         raise ValueError(f"the pitch of the joint of {name!r} must be finite, got {pitch}")

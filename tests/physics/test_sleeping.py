@@ -193,6 +193,21 @@ def test_driven_skeletons_stay_awake() -> None:
     assert asleep(world) == [1, 2, 3, 4]
 
 
+@pytest.mark.parametrize("copied", [World.clone, lambda world: pickle.loads(pickle.dumps(world))])
+def test_driven_skeletons_stay_awake_in_copies(copied: Callable[[World], World]) -> None:
+    world = pile()
+    world.skeletons[4].set_controller(_no_forces)
+    other = copied(world)
+    for each in (world, other):
+        each.step(600)
+    assert asleep(world) == asleep(other) == [1, 2, 3]
+    np.testing.assert_array_equal(world.x, other.x)
+
+
+def _no_forces() -> np.ndarray:
+    return np.zeros(6)
+
+
 def test_what_swings_stays_awake() -> None:
     """It is slow wherever it turns back; only times that follow each other count together."""
     world = World(0.005, up="z")

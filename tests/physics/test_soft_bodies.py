@@ -49,6 +49,18 @@ def test_a_force_on_a_point_moves_the_whole() -> None:
     assert_allclose((centre(body) - centres[-1]) / world.dt, (centres[-1] - centres[-2]) / world.dt, atol=2e-6)
 
 
+def test_gravity_forces_are_what_bias_forces_have_at_rest() -> None:
+    """The engine adds up numbers for them that it never set; motors that hold the weight took them over."""
+    world = World(0.001)
+    skel = world.skeletons[world.add_soft_sphere(0.2, 1.0, [0, 1, 0], cells=2).id]
+    skel.q = [0.3, 0.2, 0.5, 0.1, 1.0, 0.2]
+    at_rest = skel.c
+    assert np.linalg.norm(at_rest[3:]) == pytest.approx(9.81 * skel.m)
+    skel.dq = np.arange(6.0)
+    np.testing.assert_allclose(skel.gravity_forces(), at_rest, rtol=1e-12, atol=1e-12)
+    assert abs(skel.c - at_rest).max() > 1.0
+
+
 def test_forces_add_up_and_are_kept_with_the_state() -> None:
     world, body = floating()
     forces = np.random.default_rng(0).uniform(-1.0, 1.0, (body.num_points(), 3))

@@ -63,4 +63,11 @@ void BiasForces::go_inwards(const std::vector<Link>& links, Eigen::VectorXd& c)
   }
 }
 
+Eigen::VectorXd gravity_forces(const dart::dynamics::Skeleton& skeleton)
+{
+  if (skeleton.getNumSoftBodyNodes() == 0)
+    return skeleton.getGravityForces();
+  return skeleton.getCoriolisAndGravityForces() - skeleton.getCoriolisForces();
+}
+
 } // namespace pydart2

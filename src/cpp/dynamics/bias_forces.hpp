@@ -35,4 +35,7 @@ private:
   std::vector<Motion> motions_;
 };
 
+/// The part of c that is gravity's. DART's own sum for skeletons with soft bodies has numbers that nobody ever set.
+Eigen::VectorXd gravity_forces(const dart::dynamics::Skeleton& skeleton);
+
 } // namespace pydart2

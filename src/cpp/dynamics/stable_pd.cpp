@@ -20,7 +20,7 @@ Eigen::VectorXd StablePd::compensation(const Targets& targets)
   if (targets.compensation == Targets::Compensation::none)
     return Eigen::VectorXd::Zero(targets.q.size());
   const Eigen::VectorXd c = targets.compensation == Targets::Compensation::bias ? bias_forces_.update(tree_)
-                                                                               : tree_.skeleton.getGravityForces();
+                                                                               : gravity_forces(tree_.skeleton);
   return (targets.kp.array() != 0 || targets.kd.array() != 0).select(c, 0.0);
 }
 

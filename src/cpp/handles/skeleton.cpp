@@ -63,7 +63,8 @@ bool SkeletonHandle::is_asleep() const
 
 void SkeletonHandle::set_controlled(bool controlled)
 {
-  skeleton_.get();
+  if (is_asleep() && controlled)
+    skeleton_.get(); // which wakes it
   skeleton_.skeleton->controlled = controlled;
 }
 

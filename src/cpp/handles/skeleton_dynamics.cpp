@@ -64,7 +64,7 @@ void SkeletonHandle::coriolis_forces(Output& out) const
 
 void SkeletonHandle::gravity_forces(Output& out) const
 {
-  copy(skeleton().getGravityForces(), out);
+  copy(pydart2::gravity_forces(skeleton()), out);
 }
 
 void SkeletonHandle::external_forces(Output& out) const
