@@ -89,7 +89,7 @@ def add_geom(body: Element, link: LinkPart, shape: ShapePart, assets: Assets, st
     if not is_identity(where):
         geom.attrib.update(attributes(pos=where[:3, 3], xyaxes=where[:3, :2].T))
     if shape.rgba is None:
-        geom.set("rgba", "0.5 0.5 0.5 0")
+        geom.set("group", "3")  # which is not drawn
     elif shape.rgba.size:
         geom.set("rgba", text(shape.rgba))
     return geom

@@ -12,6 +12,7 @@ from pydart2.mjcf.compile import Compiled
 from pydart2.poses import pose
 
 _Array = NDArray[np.float64]
+_DRAWN = 3  # MuJoCo draws the geoms of the groups 0 to 2
 GEOMS = ("plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf")  # mjtGeom
 
 
@@ -28,12 +29,13 @@ def add_geoms(model: Compiled, handle: BodyNodeHandle, body: int, where: _Array,
             "orientation": transform[:3, :3],
             "mass": 0.0,
             "name": str(model.geom(geom).name) or f"geom{geom}",
-            "color": color_of(model, geom),
-            "friction": float(model.geom_friction[geom][0]),
+            "visible": bool(model.geom_group[geom] < _DRAWN),
             "collides": bool(model.geom_contype[geom] or model.geom_conaffinity[geom]),
         }
-        if not options["collides"]:
-            del options["friction"]
+        if options["visible"]:
+            options["color"] = color_of(model, geom)
+        if options["collides"]:
+            options["friction"] = float(model.geom_friction[geom][0])
         attach(handle, solid, options)
 
 

@@ -389,3 +389,17 @@ def test_what_is_new_is_tried() -> None:
     bodies = "".join(f"<body name='b{i}'><joint/><geom size='.1'/></body>" for i in range(20_000))
     with pytest.raises(pydart.LoadError, match=r"MuJoCo does not finish it in 0\.5 s of processor time"):
         pydart.World(0.001).add_skeleton(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>", load_seconds=0.5)
+
+
+def test_geoms_of_hidden_groups_collide_and_are_not_drawn() -> None:
+    """MuJoCo draws the groups 0 to 2; collision meshes are in group 3 as a rule. It comes back from what is saved."""
+    text = """<mujoco><worldbody><body name="b"><freejoint/>
+    <geom name="skin" size=".1" group="2" contype="0" conaffinity="0"/>
+    <geom name="hull" type="box" size=".1 .1 .1" group="3" rgba="1 0 0 1" friction="0.7"/>
+    </body></worldbody></mujoco>"""
+    skel = pydart.World(0.001).add_skeleton(text)
+    for one in (skel, pydart.World(0.001).add_skeleton(skel.to_mjcf())):
+        shapes = {node.name: node for node in one.body("b").shapenodes}
+        assert {name: node.has_visual_aspect() for name, node in shapes.items()} == {"skin": True, "hull": False}
+        assert {name: node.has_collision_aspect() for name, node in shapes.items()} == {"skin": False, "hull": True}
+        assert shapes["hull"].surface().friction == 0.7
