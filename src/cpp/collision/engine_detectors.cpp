@@ -88,9 +88,11 @@ std::shared_ptr<BulletDetector> BulletDetector::create()
 
 std::unique_ptr<dart::collision::CollisionObject> BulletDetector::createCollisionObject(const dart::dynamics::ShapeFrame* frame)
 {
-  if (const auto* heights = dynamic_cast<const HeightmapShapef*>(frame->getShape().get()))
+  if (const auto* heights = dynamic_cast<const HeightmapShapef*>(frame->getShape().get())) {
+    forget();
     return std::make_unique<TerrainObject>(this, frame, std::make_shared<Terrain>(*heights));
-  return BulletCollisionDetector::createCollisionObject(frame);
+  }
+  return CompletedDetector::createCollisionObject(frame);
 }
 
 DartDetector::DartDetector() : CompletedDetector(dart_does) {}

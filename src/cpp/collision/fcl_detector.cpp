@@ -22,6 +22,7 @@
 
 #include "base/fork.hpp"
 #include "collision/fcl_skin.hpp"
+#include "engine/protected_members.hpp"
 #include "engine/shared_scenes.hpp"
 
 namespace pydart2 {
@@ -218,7 +219,7 @@ class Object : public FCLCollisionObject
 {
 public:
   Object(CollisionDetector* detector, const ShapeFrame* frame, const std::shared_ptr<Geometry>& geometry)
-    : FCLCollisionObject(detector, frame, geometry)
+    : FCLCollisionObject(detector, frame, geometry), is_skin_(is_skin())
   {
   }
 
@@ -226,19 +227,28 @@ public:
   {
     mFCLCollisionObject = std::make_unique<dart::collision::fcl::CollisionObject>(geometry);
     mFCLCollisionObject->setUserData(this);
+    is_skin_ = is_skin();
   }
 
 protected:
+  /// As the engine's, with less of what skins take. The engine's frame of the shape is not asked where it is, so that it need
+  /// not keep that in its memory.
   void updateEngineData() override
   {
-    const auto* skin = dynamic_cast<const SoftMeshShape*>(getShape().get());
-    if (skin == nullptr)
-      return FCLCollisionObject::updateEngineData();
-    const auto& geometry = *mFCLCollisionObject->collisionGeometry();
-    move_skin(const_cast<Tree&>(static_cast<const Tree&>(geometry)), const_cast<SoftMeshShape&>(*skin));
-    mFCLCollisionObject->setTransform(getTransform());
+    if (is_skin_) {
+      const auto& skin = static_cast<const SoftMeshShape&>(*getShape());
+      const auto& geometry = *mFCLCollisionObject->collisionGeometry();
+      move_skin(const_cast<Tree&>(static_cast<const Tree&>(geometry)), const_cast<SoftMeshShape&>(skin));
+    }
+    const auto& frame = *getShapeFrame();
+    mFCLCollisionObject->setTransform(frame.getParentFrame()->getWorldTransform() * frame.getRelativeTransform());
     mFCLCollisionObject->computeAABB();
   }
+
+private:
+  bool is_skin() const { return dynamic_cast<const SoftMeshShape*>(getShape().get()) != nullptr; }
+
+  bool is_skin_;
 };
 
 /// FCL balances a new tree at its first object, which moves on the place where the next balancing begins, and one that was
@@ -308,11 +318,14 @@ std::shared_ptr<CollisionDetector> FclDetector::cloneWithoutCollisionObjects() c
 
 std::unique_ptr<CollisionGroup> FclDetector::createCollisionGroup()
 {
+  forget();
   return std::make_unique<Group>(shared_from_this());
 }
 
 bool FclDetector::collide(CollisionGroup* group, const CollisionOption& option, CollisionResult* result)
 {
+  if (option.maxNumContacts == 0)
+    GroupMembers::update_engine_data(*group);
   const bool any = CompletedDetector::collide(group, option, result);
   if (result != nullptr && getPrimitiveShapeType() == PRIMITIVE)
     turn_back(*result);
@@ -321,11 +334,13 @@ bool FclDetector::collide(CollisionGroup* group, const CollisionOption& option, 
 
 std::unique_ptr<CollisionObject> FclDetector::createCollisionObject(const ShapeFrame* frame)
 {
+  forget();
   return std::make_unique<Object>(this, frame, geometry(frame->getShape()));
 }
 
 void FclDetector::refreshCollisionObject(CollisionObject* object)
 {
+  forget();
   static_cast<Object*>(object)->set_geometry(geometry(object->getShape()));
 }
 

@@ -6,11 +6,12 @@
 
 namespace pydart2 {
 
-/// The engine's detector with FCL, but for six things. Equal shapes of all worlds share the tree of their triangles,
+/// The engine's detector with FCL, but for seven things. Equal shapes of all worlds share the tree of their triangles,
 /// which is most of what a robot takes in memory. A shape that has changed keeps its body: the engine's own refresh
 /// forgets to say whose shape it is, and the next contact reads memory that was never set. And cones and pyramids
 /// are where they belong: the engine makes their triangles at a pose that was never set. Skins of soft bodies meet FCL's own
-/// boxes and balls at the right face. A group that was emptied is as a new one. And it is completed.
+/// boxes and balls at the right face. A group that was emptied is as a new one. One that is asked for no contacts
+/// balances its tree, so that the order of later ones does not show it. And it is completed.
 class FclDetector : public CompletedDetector<dart::collision::FCLCollisionDetector>
 {
 public:

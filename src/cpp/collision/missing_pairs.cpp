@@ -65,20 +65,16 @@ ShapeKind kind_of(const Shape& shape)
 
 bool MissingPairs::look(const CollisionDetector& detector, const CollisionGroup& group)
 {
-  seen_.clear();
-  for (std::size_t i = 0; i < group.getNumShapeFrames(); ++i) {
-    const auto* frame = group.getShapeFrame(i);
-    const auto shape = frame->getShape();
-    seen_.push_back({frame, frame->getParentFrame(), shape, shape->getVersion()});
-  }
-  if (group_ == &group && seen_ == known_ && !scene_.reordered())
+  if (group_ == &group && shapes_ == group.getNumShapeFrames() && !scene_.reordered())
     return !objects_.empty();
   group_ = &group;
-  known_.swap(seen_);
+  shapes_ = group.getNumShapeFrames();
   kinds_ = std::make_shared<Kinds>();
   std::array<int, static_cast<std::size_t>(ShapeKind::other) + 1> counts{};
-  for (const auto& each : known_)
-    ++counts[static_cast<std::size_t>((*kinds_)[each.frame] = kind_of(*each.shape))];
+  for (std::size_t i = 0; i < shapes_; ++i) {
+    const auto* frame = group.getShapeFrame(i);
+    ++counts[static_cast<std::size_t>((*kinds_)[frame] = kind_of(*frame->getShape()))];
+  }
   const auto misses = [&](ShapeKind kind) {
     for (std::size_t other = 0; other < counts.size(); ++other)
       if (counts[other] > (static_cast<std::size_t>(kind) == other ? 1 : 0) && !does_(kind, static_cast<ShapeKind>(other)))
@@ -87,9 +83,9 @@ bool MissingPairs::look(const CollisionDetector& detector, const CollisionGroup&
   };
   objects_.clear();
   std::vector<native::Object*> objects;
-  for (const auto& each : known_)
-    if (misses((*kinds_)[each.frame])) {
-      objects_.push_back(std::make_unique<native::Object>(const_cast<CollisionDetector*>(&detector), each.frame));
+  for (std::size_t i = 0; i < shapes_; ++i)
+    if (const auto* frame = group.getShapeFrame(i); misses((*kinds_)[frame])) {
+      objects_.push_back(std::make_unique<native::Object>(const_cast<CollisionDetector*>(&detector), frame));
       objects.push_back(objects_.back().get());
     }
   scene_.set_objects(objects);

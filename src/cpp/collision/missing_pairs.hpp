@@ -26,6 +26,9 @@ public:
   /// `does` tells for which pairs the detector has a way; it is symmetric.
   explicit MissingPairs(Does does) : does_(does) {}
 
+  /// To be called when shapes come, change or go.
+  void forget() { group_ = nullptr; }
+
   /// What `engine` finds with an option, and what it would miss.
   template <class Engine>
   bool collide(
@@ -43,26 +46,14 @@ public:
 private:
   using FilterPtr = std::shared_ptr<dart::collision::CollisionFilter>;
 
-  struct Known
-  {
-    const dart::dynamics::ShapeFrame* frame;
-    const dart::dynamics::Frame* parent;
-    dart::dynamics::ConstShapePtr shape; ///< Kept, so that no other one gets its address.
-    std::size_t version;
-    bool operator==(const Known& other) const
-    {
-      return frame == other.frame && parent == other.parent && shape == other.shape && version == other.version;
-    }
-  };
-
-  /// Looks at the shapes of a group; whether a pair of them is missing.
+  /// Looks at the shapes of a group, unless it has; whether a pair of them is missing.
   bool look(const dart::collision::CollisionDetector& detector, const dart::collision::CollisionGroup& group);
   FilterPtr only(const FilterPtr& inner, bool missing) const;
   bool add(const dart::collision::CollisionOption& option, dart::collision::CollisionResult* result);
 
   Does does_;
   const dart::collision::CollisionGroup* group_ = nullptr;
-  std::vector<Known> known_, seen_;
+  std::size_t shapes_ = 0; ///< How many it had.
   std::shared_ptr<std::unordered_map<const dart::dynamics::ShapeFrame*, ShapeKind>> kinds_;
   std::vector<std::unique_ptr<native::Object>> objects_; ///< Empty: nothing is missing.
   native::Scene scene_;

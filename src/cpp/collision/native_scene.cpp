@@ -47,7 +47,7 @@ void Scene::set_objects(const std::vector<Object*>& objects)
     if (!bounded)
       unbounded_.push_back(static_cast<int>(items_.size()));
     watched_.push_back(static_cast<int>(items_.size()));
-    items_.push_back({object, body, skeleton, place, bounded, nullptr, Pose::Identity(), true, Pose::Identity(), {}, {}, false, false});
+    items_.push_back({object, body, skeleton, place, bounded, nullptr, false, Pose::Identity(), true, Pose::Identity(), {}, {}, false, false});
     items_.back().pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN()); // equal to no pose
     items_.back().wide = {Vector::Constant(1.0), Vector::Constant(-1.0)}; // contains nothing
   }
@@ -59,6 +59,7 @@ void Scene::look_again(const PoseOf& pose_of)
     if (item.body == nullptr)
       continue;
     item.body_pose = pose_of ? pose_of(item.body) : nullptr;
+    item.on_body = true;
     item.relative = item.object->getShapeFrame()->asShapeNode()->getRelativeTransform();
     item.collidable = item.body->isCollidable();
   }
@@ -115,8 +116,10 @@ void Scene::place()
 void Scene::place(int index)
 {
   auto& item = this->item(index);
-  const Pose pose = item.body_pose == nullptr ? item.object->getShapeFrame()->getWorldTransform()
-                                              : *item.body_pose * item.relative;
+  const auto body_pose = [&]() -> const Pose& {
+    return item.body_pose != nullptr ? *item.body_pose : item.body->getWorldTransform();
+  };
+  const Pose pose = item.on_body ? body_pose() * item.relative : item.object->getShapeFrame()->getWorldTransform();
   if (item.pose.matrix() == pose.matrix())
     return;
   item.pose = pose;
@@ -195,6 +198,8 @@ void Scene::find(const dart::collision::CollisionFilter* filter, bool gaps, std:
   const engine::PairFilter fast(filter);
   for (const auto& [first, second] : watched_.size() == items_.size() ? pairs_ : watched_pairs_) {
     auto &a = item(first), &b = item(second);
+    if (a.skeleton == b.skeleton && a.skeleton != nullptr && fast.surely_ignores_within(*a.skeleton))
+      continue;
     const double margin = gaps ? std::min(margin_of(a.object->geometry()), margin_of(b.object->geometry())) : 0.0;
     if (a.bounded && b.bounded && !a.bounds.overlaps(b.bounds, margin))
       continue;

@@ -75,7 +75,8 @@ private:
     std::size_t place; ///< Of the body in its skeleton.
     bool bounded;
     const Pose* body_pose; ///< Null: the engine knows.
-    Pose relative; ///< To the body, in which it is.
+    bool on_body;          ///< That `relative` is read, so that the engine's frame of the shape needs no pose.
+    Pose relative;         ///< To the body, in which it is.
     bool collidable; ///< The body is.
     Pose pose;
     Bounds bounds;

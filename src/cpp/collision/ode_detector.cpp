@@ -100,11 +100,12 @@ bool OdeDetector::collide(
 std::unique_ptr<CollisionObject> OdeDetector::createCollisionObject(const dart::dynamics::ShapeFrame* frame)
 {
   const LentNormals normals(*frame);
-  return OdeCollisionDetector::createCollisionObject(frame);
+  return CompletedDetector::createCollisionObject(frame);
 }
 
 void OdeDetector::refreshCollisionObject(CollisionObject* object)
 {
+  forget();
   const auto* frame = object->getShapeFrame();
   const LentNormals normals(*frame);
   const Object tried(this, frame); // if that throws, the old one is whole

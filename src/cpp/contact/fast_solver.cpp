@@ -11,6 +11,7 @@
 
 #include "base/errors.hpp"
 #include "contact/contact_reduction.hpp"
+#include "engine/collision_filter.hpp"
 #include "engine/fixed_skins.hpp"
 #include "engine/boxed_lcp.hpp"
 
@@ -70,34 +71,39 @@ void FastConstraintSolver::set_warm_start(bool enable)
 
 namespace {
 
-/// Two lists change places, for the time of a step.
+/// Two values change places, for the time of a step.
+template <class Value>
 struct Exchange
 {
-  Exchange(std::vector<dart::dynamics::SkeletonPtr>& a, std::vector<dart::dynamics::SkeletonPtr>& b) : a(a), b(b)
-  {
-    a.swap(b);
-  }
-  ~Exchange() { a.swap(b); }
+  Exchange(Value& a, Value& b) : a(a), b(b) { std::swap(a, b); }
+  ~Exchange() { std::swap(a, b); }
   Exchange(const Exchange&) = delete;
   Exchange& operator=(const Exchange&) = delete;
 
-  std::vector<dart::dynamics::SkeletonPtr>&a, &b;
+  Value &a, &b;
 };
 
 } // namespace
 
-void FastConstraintSolver::solve_step(const Step* step)
+/// Whether the filter lets no pair pass: there is one skeleton, whose bodies do not collide with each other. In the trees of
+/// Bullet and ODE the order of later pairs would show that they were not asked.
+bool FastConstraintSolver::nothing_collides() const
+{
+  if (mSkeletons.size() != 1)
+    return false;
+  const std::string& detector = mCollisionDetector->getType();
+  return detector != "bullet" && detector != "ode"
+         && engine::PairFilter(mCollisionOption.collisionFilter.get()).surely_ignores_within(*mSkeletons.front());
+}
+
+void FastConstraintSolver::solve_step(const Step& step)
 {
   exact_residual_ = 0.0;
+  std::size_t most = nothing_collides() ? 0 : mCollisionOption.maxNumContacts;
+  const Exchange option(mCollisionOption.maxNumContacts, most);
   if (solver_ == Solver::iterative)
-    iterative_.begin_step(mSkeletons, step != nullptr && step->same, step == nullptr ? nullptr : step->free);
-  std::optional<Exchange> for_now;
-  if (step != nullptr)
-    for_now.emplace(mSkeletons, step->skeletons);
-  for (const auto& skeleton : mSkeletons) {
-    skeleton->clearConstraintImpulses();
-    skeleton->setImpulseApplied(false);
-  }
+    iterative_.begin_step(mSkeletons, step.same, step.free);
+  const Exchange skeletons(mSkeletons, step.skeletons);
   if (solver_ == Solver::iterative)
     solve_by_sweeps(step);
   else
@@ -105,21 +111,29 @@ void FastConstraintSolver::solve_step(const Step* step)
 }
 
 /// The engine's solve(), with what wakes, and without flags of colliding bodies that nobody reads.
-void FastConstraintSolver::solve_by_groups(const Step* step)
+void FastConstraintSolver::solve_by_groups(const Step& step)
 {
-  updateConstraints();
-  if (wake(step))
-    updateConstraints();
+  find_constraints(step);
   drop_fixed_skins(*this);
   buildConstrainedGroups();
   solveConstrainedGroups();
 }
 
-bool FastConstraintSolver::wake(const Step* step)
+void FastConstraintSolver::find_constraints(const Step& step)
 {
-  if (step == nullptr || !step->wake)
+  {
+    const Exchange skeletons(mSkeletons, step.jointed); // which the engine asks for constraints of their joints
+    updateConstraints();
+  }
+  if (wake(step))
+    updateConstraints();
+}
+
+bool FastConstraintSolver::wake(const Step& step)
+{
+  if (!step.wake)
     return false;
-  const auto woken = step->wake(mCollisionResult);
+  const auto woken = step.wake(mCollisionResult);
   mSkeletons.insert(mSkeletons.end(), woken.begin(), woken.end());
   return !woken.empty();
 }

@@ -48,15 +48,16 @@ public:
   /// What a step is about, where that is not all the skeletons of the world through the engine's objects.
   struct Step
   {
-    std::vector<dart::dynamics::SkeletonPtr>& skeletons; ///< That are awake, without those in `free`.
+    std::vector<dart::dynamics::SkeletonPtr>& skeletons; ///< That are awake, without those in `free`; no impulse acts on them.
+    std::vector<dart::dynamics::SkeletonPtr>& jointed;   ///< Of them those with joints that may have rows.
     FreeBodies* free;
     bool same; ///< No skeleton has changed since the step before but for its state.
     /// Asked with the contacts for the sleepers that wake, after which the contacts are found anew; null if none sleeps.
     std::function<std::vector<dart::dynamics::SkeletonPtr>(const dart::collision::CollisionResult&)> wake;
   };
 
-  /// solve() by the chosen solver; null for all skeletons.
-  void solve_step(const Step* step);
+  /// solve() by the chosen solver.
+  void solve_step(const Step& step);
 
   /// Whether all contacts and constraints are solved by sweeps.
   bool sweeps_all() const { return solver_ == Solver::iterative && all_known(); }
@@ -90,13 +91,15 @@ protected:
   void solveConstrainedGroup(dart::constraint::ConstrainedGroup& group) override;
 
 private:
-  void solve_by_groups(const Step* step);
-  bool wake(const Step* step);
-  void solve_by_sweeps(const Step* step);
-  const std::vector<native::Touch>* find_contacts(const Step* step);
+  bool nothing_collides() const;
+  void solve_by_groups(const Step& step);
+  void find_constraints(const Step& step);
+  bool wake(const Step& step);
+  void solve_by_sweeps(const Step& step);
+  const std::vector<native::Touch>* find_contacts(const Step& step);
   void drop_gaps();
-  void gather(const Step* step);
-  void gather_from_groups(const Step* step);
+  void gather(const Step& step);
+  void gather_from_groups(const Step& step);
   void add_joint_constraints(const dart::dynamics::Skeleton& skeleton);
   bool all_known() const;
   void scale_error(dart::constraint::ConstraintBase& constraint) const;

@@ -41,7 +41,7 @@ bool has_soft_body(const ConstraintBasePtr& constraint)
 
 } // namespace
 
-void FastConstraintSolver::solve_by_sweeps(const Step* step)
+void FastConstraintSolver::solve_by_sweeps(const Step& step)
 {
   if (all_known())
     gather(step);
@@ -50,7 +50,7 @@ void FastConstraintSolver::solve_by_sweeps(const Step* step)
   // The native detector has no more than four points of a pair of faces, and their depths are right.
   const bool native = mCollisionDetector->getType() == "native";
   iterative_.solve(mTimeStep, warm_start_, contact_reduction_ && !native, !native);
-  if (native && step != nullptr)
+  if (native)
     drop_gaps();
 }
 
@@ -71,22 +71,22 @@ void FastConstraintSolver::drop_gaps()
 }
 
 /// With the native detector, the touches that the contacts are made of; else null.
-const std::vector<native::Touch>* FastConstraintSolver::find_contacts(const Step* step)
+const std::vector<native::Touch>* FastConstraintSolver::find_contacts(const Step& step)
 {
   auto* group = dynamic_cast<NativeGroup*>(mCollisionGroup.get());
-  if (group == nullptr || step == nullptr) {
+  if (group == nullptr || mCollisionOption.maxNumContacts == 0) {
     mCollisionResult.clear();
     mCollisionGroup->collide(mCollisionOption, &mCollisionResult);
     return nullptr;
   }
-  if (!step->same)
+  if (!step.same)
     group->update();
   group->find(mCollisionOption, mCollisionResult);
   return &group->touches();
 }
 
 /// The engine's updateConstraints() without its contact constraints.
-void FastConstraintSolver::gather(const Step* step)
+void FastConstraintSolver::gather(const Step& step)
 {
   mActiveConstraints.clear();
   mContactConstraints.clear();
@@ -102,7 +102,8 @@ void FastConstraintSolver::gather(const Step* step)
       iterative_.add(constraint);
   };
   const auto* touches = find_contacts(step);
-  if (wake(step))
+  const bool woken = wake(step);
+  if (woken)
     touches = find_contacts(step);
   for (const auto& constraint : mManualConstraints)
     take(constraint);
@@ -110,7 +111,7 @@ void FastConstraintSolver::gather(const Step* step)
     if (auto& contact = mCollisionResult.getContact(i);
         !Contact::isZeroNormal(contact.normal) && (touches != nullptr || contact.penetrationDepth >= 0.0))
       iterative_.add(contact, touches == nullptr ? nullptr : &(*touches)[i]);
-  for (const auto& skeleton : mSkeletons)
+  for (const auto& skeleton : woken ? mSkeletons : step.jointed)
     add_joint_constraints(*skeleton);
   std::for_each(mJointConstraints.begin(), mJointConstraints.end(), take);
   std::for_each(mMimicMotorConstraints.begin(), mMimicMotorConstraints.end(), take);
@@ -139,11 +140,9 @@ void FastConstraintSolver::add_joint_constraints(const Skeleton& skeleton)
 
 /// With the engine's constraints and groups, of which those with soft bodies or constraints of unknown kinds are solved
 /// exactly, here and now.
-void FastConstraintSolver::gather_from_groups(const Step* step)
+void FastConstraintSolver::gather_from_groups(const Step& step)
 {
-  updateConstraints();
-  if (wake(step))
-    updateConstraints();
+  find_constraints(step);
   drop_fixed_skins(*this);
   buildConstrainedGroups();
   shared_ = mConstrainedGroups.size() > 1 && groups_share_skeletons();

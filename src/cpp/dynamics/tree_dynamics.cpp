@@ -89,13 +89,28 @@ bool TreeDynamics::is_for_engine() const
   return false;
 }
 
+void TreeDynamics::fetch_numbers(std::size_t i) const
+{
+  if (i >= links_.size())
+    return;
+  const Link& link = *links_[i];
+  fetch(*link.external_force);
+  fetch(*link.inertia, *link.inertia);
+  fetch(link.body->*Body::partial_acceleration, link.body->*Body::bias_force);
+  fetch(link.frame->*FrameOf::transform, link.frame->*FrameOf::acceleration);
+  fetch(link.joint->*JointOf::properties, link.joint->*JointOf::transform_dirty);
+  fetch_flags(i);
+}
+
 void TreeDynamics::accelerate()
 {
   const double dt = skeleton_.getTimeStep();
   const Eigen::Vector3d gravity = skeleton_.getGravity();
-  for (auto& link : links_) {
-    link->kinematic = is_kinematic(*link->joint);
-    update_motion(*link);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    fetch_numbers(i + 1);
+    auto& link = *links_[i];
+    link.kinematic = is_kinematic(*link.joint);
+    update_motion(link);
   }
   update_inertias();
   for (auto link = links_.rbegin(); link != links_.rend(); ++link)

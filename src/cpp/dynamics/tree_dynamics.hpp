@@ -86,6 +86,15 @@ private:
   void mark_positions();
   void mark_velocities();
   void mark_accelerations();
+  static void mark_position(Link& link);
+  static void mark_velocity(Link& link);
+  static void mark_acceleration(Link& link);
+  template <class Mark>
+  void each_cache(const Mark& mark);
+
+  /// Have memory of the i-th link, if there is one, brought to the cache while another one is computed.
+  void fetch_numbers(std::size_t i) const;
+  void fetch_flags(std::size_t i) const;
 
   dart::dynamics::Skeleton& skeleton_;
   std::vector<std::unique_ptr<Link>> links_; ///< Parents first.

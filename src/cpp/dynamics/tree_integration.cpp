@@ -48,65 +48,97 @@ void TreeDynamics::integrate_positions(double dt)
 
 void TreeDynamics::mark_positions()
 {
-  mark_velocities();
-  for (auto& link : links_) {
-    Joint& joint = *link->joint;
-    BodyNode& body = *link->body;
-    joint.*JointOf::transform_dirty = joint.*JointOf::jacobian_dirty = true;
-    if (!(body.*Body::jacobian_dirty))
-      (body.*Body::mark_jacobian)();
-    if (link->entity->*EntityOf::transform_dirty)
-      continue;
-    link->entity->*EntityOf::transform_dirty = true;
-    for (Entity* other : body.*Body::others)
-      if (!(other->*EntityOf::transform_dirty && other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty)
-          || !is_unheard(*other))
-        other->dirtyTransform();
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    fetch_flags(i + 1);
+    mark_velocity(*links_[i]);
+    mark_acceleration(*links_[i]);
+    mark_position(*links_[i]);
   }
   const auto mark = [](auto& dirty) {
     dirty.mArticulatedInertia = dirty.mMassMatrix = dirty.mAugMassMatrix = dirty.mInvMassMatrix = dirty.mInvAugMassMatrix
-        = dirty.mGravityForces = dirty.mExternalForces = true;
+        = dirty.mGravityForces = dirty.mExternalForces = dirty.mCoriolisForces = dirty.mCoriolisAndGravityForces = true;
   };
-  mark(engine::SkeletonMembers::all(skeleton_));
-  for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
-    mark(engine::SkeletonMembers::tree(skeleton_, tree));
+  each_cache(mark);
 }
 
 void TreeDynamics::mark_velocities()
 {
-  for (auto& link : links_) {
-    Joint& joint = *link->joint;
-    BodyNode& body = *link->body;
-    joint.*JointOf::velocity_dirty = joint.*JointOf::jacobian_rate_dirty = true;
-    if (!(body.*Body::jacobian_rate_dirty && body.*Body::world_jacobian_rate_dirty))
-      (body.*Body::mark_jacobian_rate)();
-    body.*Body::partial_acceleration_dirty = true;
-    if (link->entity->*EntityOf::velocity_dirty)
-      continue;
-    link->entity->*EntityOf::velocity_dirty = true;
-    for (Entity* other : body.*Body::others)
-      if (!(other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
-        other->dirtyVelocity();
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    fetch_flags(i + 1);
+    mark_velocity(*links_[i]);
+    mark_acceleration(*links_[i]);
   }
-  const auto mark = [](auto& dirty) { dirty.mCoriolisForces = dirty.mCoriolisAndGravityForces = true; };
-  mark(engine::SkeletonMembers::all(skeleton_));
-  for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
-    mark(engine::SkeletonMembers::tree(skeleton_, tree));
-  mark_accelerations();
+  each_cache([](auto& dirty) { dirty.mCoriolisForces = dirty.mCoriolisAndGravityForces = true; });
 }
 
 void TreeDynamics::mark_accelerations()
 {
-  for (auto& link : links_) {
-    Joint& joint = *link->joint;
-    joint.*JointOf::acceleration_dirty = joint.*JointOf::primary_acceleration_dirty = true;
-    if (link->entity->*EntityOf::acceleration_dirty)
-      continue;
-    link->entity->*EntityOf::acceleration_dirty = true;
-    for (Entity* other : link->body->*Body::others)
-      if (!(other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
-        other->dirtyAcceleration();
-  }
+  for (auto& link : links_)
+    mark_acceleration(*link);
+}
+
+/// Of the skeleton and of each of its trees.
+template <class Mark>
+void TreeDynamics::each_cache(const Mark& mark)
+{
+  mark(engine::SkeletonMembers::all(skeleton_));
+  for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
+    mark(engine::SkeletonMembers::tree(skeleton_, tree));
+}
+
+void TreeDynamics::fetch_flags(std::size_t i) const
+{
+  if (i >= links_.size())
+    return;
+  const Link& link = *links_[i];
+  fetch(link.joint->*JointOf::transform_dirty);
+  fetch(link.body->*Body::jacobian_dirty);
+  fetch(link.body->*Body::others);
+  fetch(link.entity->*EntityOf::transform_dirty);
+}
+
+void TreeDynamics::mark_position(Link& link)
+{
+  Joint& joint = *link.joint;
+  BodyNode& body = *link.body;
+  joint.*JointOf::transform_dirty = joint.*JointOf::jacobian_dirty = true;
+  if (!(body.*Body::jacobian_dirty))
+    (body.*Body::mark_jacobian)();
+  if (link.entity->*EntityOf::transform_dirty)
+    return;
+  link.entity->*EntityOf::transform_dirty = true;
+  for (Entity* other : body.*Body::others)
+    if (!(other->*EntityOf::transform_dirty && other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty)
+        || !is_unheard(*other))
+      other->dirtyTransform();
+}
+
+void TreeDynamics::mark_velocity(Link& link)
+{
+  Joint& joint = *link.joint;
+  BodyNode& body = *link.body;
+  joint.*JointOf::velocity_dirty = joint.*JointOf::jacobian_rate_dirty = true;
+  if (!(body.*Body::jacobian_rate_dirty && body.*Body::world_jacobian_rate_dirty))
+    (body.*Body::mark_jacobian_rate)();
+  body.*Body::partial_acceleration_dirty = true;
+  if (link.entity->*EntityOf::velocity_dirty)
+    return;
+  link.entity->*EntityOf::velocity_dirty = true;
+  for (Entity* other : body.*Body::others)
+    if (!(other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
+      other->dirtyVelocity();
+}
+
+void TreeDynamics::mark_acceleration(Link& link)
+{
+  Joint& joint = *link.joint;
+  joint.*JointOf::acceleration_dirty = joint.*JointOf::primary_acceleration_dirty = true;
+  if (link.entity->*EntityOf::acceleration_dirty)
+    return;
+  link.entity->*EntityOf::acceleration_dirty = true;
+  for (Entity* other : link.body->*Body::others)
+    if (!(other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
+      other->dirtyAcceleration();
 }
 
 } // namespace pydart2

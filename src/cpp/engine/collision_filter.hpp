@@ -5,6 +5,7 @@
 #include <dart/collision/CollisionResult.hpp>
 #include <cstdint>
 #include <dart/dynamics/BodyNode.hpp>
+#include <dart/dynamics/Skeleton.hpp>
 #include <unordered_map>
 
 /// The engine's filter of pairs of bodies takes 2 µs a pair, most of it for counting references. For bodies of different
@@ -48,6 +49,12 @@ public:
   /// Whether a filter is sure to let two bodies collide, both of which are collidable; what it says else is to be asked
   /// of the filter itself.
   bool surely_collide(const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b) const;
+
+  /// Whether a filter is sure to let all bodies of a skeleton pass through each other.
+  bool surely_ignores_within(const dart::dynamics::Skeleton& skeleton) const
+  {
+    return ignored_ != nullptr && !skeleton.isEnabledSelfCollisionCheck();
+  }
 
   /// Whether the pair or its bits say that the bodies pass through each other.
   bool is_told_to_ignore(const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b) const;

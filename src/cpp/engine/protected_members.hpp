@@ -25,10 +25,12 @@ struct SolverMembers : dart::constraint::ConstraintSolver
 /// A group's objects, which its detector's own library has in an order or a tree that comes of earlier steps.
 struct GroupMembers : dart::collision::CollisionGroup
 {
+  static void update_engine_data(CollisionGroup& group) { (group.*(&GroupMembers::updateEngineData))(); }
+
   /// As for a new group: where they are now, one after the other.
   static void put_in_again(CollisionGroup& group)
   {
-    (group.*(&GroupMembers::updateEngineData))();
+    update_engine_data(group);
     (group.*(&GroupMembers::removeAllCollisionObjectsFromEngine))();
     for (const auto& info : group.*(&GroupMembers::mObjectInfoList))
       (group.*(&GroupMembers::addCollisionObjectToEngine))(info->mObject.get());

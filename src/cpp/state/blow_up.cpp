@@ -75,7 +75,7 @@ std::vector<SkeletonRef> insane_or_fastest(const WorldRecord& record)
 {
   std::vector<SkeletonRef> found;
   for (const auto& item : record.plan.others)
-    if (!item->watch->is_sane())
+    if (!watch(*item).is_sane())
       found.push_back(item);
   if (const auto i = record.plan.free.find_insane(check::huge); i < record.plan.free.size())
     found.push_back(record.plan.owners[i]);

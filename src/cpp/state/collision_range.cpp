@@ -1,5 +1,6 @@
 #include "state/collision_range.hpp"
 
+#include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/PlaneShape.hpp>
 #include <dart/dynamics/ShapeNode.hpp>
 
@@ -46,24 +47,37 @@ void check_range(const BodyNode& body, double far, bool ode, double time)
     check(far + reach(*node, ode), "a shape of body");
 }
 
-} // namespace
-
-void check_range(const WorldRecord& record, bool ode, double time)
+/// A body whose shapes are no further from its origin than `shapes`.
+void check_range(const BodyNode& body, const Eigen::Isometry3d& pose, double shapes, bool ode, double time)
 {
   constexpr double surely_within = 1e7; // of each detector's range
-  const auto check = [&](const BodyNode& body, const Eigen::Isometry3d& pose, double shapes) {
-    const double far = pose.translation().cwiseAbs().maxCoeff();
-    if (!(far + shapes <= surely_within))
-      check_range(body, far, ode, time);
-  };
-  for (std::size_t i = 0; i < record.plan.free.size(); ++i)
-    check(*record.plan.free[i].node, record.plan.free[i].pose, record.plan.free[i].reach);
-  for (const auto& item : record.plan.others) {
-    if (ode || !item->shapes_reach)
-      item->shapes_reach = shapes_reach(*item->skeleton, ode);
-    for (const auto* body : item->skeleton->getBodyNodes())
-      check(*body, body->getWorldTransform(), *item->shapes_reach);
-  }
+  const double far = pose.translation().cwiseAbs().maxCoeff();
+  if (!(far + shapes <= surely_within))
+    check_range(body, far, ode, time);
+}
+
+bool has_ode(const WorldRecord& record)
+{
+  return record.world->getConstraintSolver()->getCollisionDetector()->getType() == "ode";
+}
+
+} // namespace
+
+void check_range(const WorldRecord& record, SkeletonRecord& item, double time)
+{
+  const bool ode = has_ode(record);
+  if (ode || !item.shapes_reach)
+    item.shapes_reach = shapes_reach(*item.skeleton, ode);
+  for (const auto* body : item.skeleton->getBodyNodes())
+    check_range(*body, body->getWorldTransform(), *item.shapes_reach, ode, time);
+}
+
+void check_range_of_free(const WorldRecord& record, double time)
+{
+  const bool ode = has_ode(record);
+  const auto& free = record.plan.free;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    check_range(*free[i].node, free[i].pose, free[i].reach, ode, time);
 }
 
 } // namespace pydart2

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "base/errors.hpp"
+#include "state/collision_range.hpp"
 #include "state/sleeping.hpp"
 #include "state/step_plan.hpp"
 #include "state/stepping.hpp"
@@ -114,13 +115,13 @@ void check_collision(WorldRecord& world)
     for (std::size_t i = 0; i < skeleton.getNumDofs(); ++i)
       values[i] = skeleton.getDof(i)->getConstraintImpulse();
     impulses.push_back(values);
+    clear_impulses(skeleton);
     put_into_inertias(record->armature, skeleton);
   }
   const auto take_back = [&] {
     for (std::size_t s = 0; s < world.skeletons.size(); ++s) {
       auto& skeleton = *world.skeletons[s]->skeleton;
-      skeleton.clearConstraintImpulses();
-      skeleton.setImpulseApplied(false);
+      clear_impulses(skeleton);
       for (std::size_t i = 0; i < skeleton.getNumDofs(); ++i)
         skeleton.getDof(i)->setConstraintImpulse(impulses[s][i]);
     }
@@ -128,6 +129,8 @@ void check_collision(WorldRecord& world)
   const AllMobile for_now(world);
   plan_through_engine(world);
   try {
+    for (const auto& record : world.skeletons)
+      check_range(world, *record, world.world->getTime());
     solve_constraints(world, world.world->getTime());
     world.sleep.contacts_found = true;
   } catch (const Error& error) {

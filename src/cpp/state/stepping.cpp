@@ -22,6 +22,12 @@
 
 namespace pydart2 {
 
+void clear_impulses(dart::dynamics::Skeleton& skeleton)
+{
+  skeleton.clearConstraintImpulses();
+  skeleton.setImpulseApplied(false);
+}
+
 namespace {
 
 using dart::dynamics::BodyNode;
@@ -72,7 +78,7 @@ void prepare_integrator(const WorldRecord& record, SkeletonRecord& item, double 
 }
 
 /// The velocities of a skeleton without contacts and constraints.
-void predict(const WorldRecord& record, SkeletonRecord& item, double end)
+void predict_mobile(const WorldRecord& record, SkeletonRecord& item, double end)
 {
   auto& skeleton = *item.skeleton;
   const double dt = record.world->getTimeStep();
@@ -90,6 +96,16 @@ void predict(const WorldRecord& record, SkeletonRecord& item, double end)
     item.integrator().keep_prediction();
 }
 
+/// Begins the step of a skeleton: what one goes through is still in the processor's cache for the next.
+void predict(const WorldRecord& record, SkeletonRecord& item, double end)
+{
+  watch(item).save();
+  if (item.skeleton->isMobile())
+    predict_mobile(record, item, end);
+  check_range(record, item, end);
+  clear_impulses(*item.skeleton); // which motors look at
+}
+
 /// With those that are awake, and what their contacts wake.
 void solve(WorldRecord& record, double end)
 {
@@ -103,26 +119,24 @@ void solve(WorldRecord& record, double end)
       const int place = plan.free.find(body);
       return place < 0 ? nullptr : &plan.free[static_cast<std::size_t>(place)].pose;
     });
-  if (record.sleep.asleep.empty() && solver.solver() != Solver::iterative)
-    return solver.solve_step(nullptr);
   const auto wake = [&](const dart::collision::CollisionResult& contacts) {
     std::vector<dart::dynamics::SkeletonPtr> skeletons;
     const auto woken = wake_touched(record, contacts);
     for (const auto& item : woken) { // in this step through the engine's objects
-      item->skeleton->clearConstraintImpulses();
-      watch(*item).save();
-      predict(record, *item, end);
       plan.others.push_back(item);
+      ++plan.begun;
+      clear_impulses(*item->skeleton);
+      predict(record, *item, end);
       skeletons.push_back(item->skeleton);
     }
     if (group != nullptr)
       group->set_asleep(record.sleep.asleep, record.sleep.version);
     return skeletons;
   };
-  FastConstraintSolver::Step step{plan.other_skeletons, &plan.free, plan.same, nullptr};
+  FastConstraintSolver::Step step{plan.other_skeletons, plan.jointed, &plan.free, plan.same, nullptr};
   if (!record.sleep.asleep.empty())
     step.wake = wake;
-  solver.solve_step(&step);
+  solver.solve_step(step);
 }
 
 } // namespace
@@ -134,7 +148,7 @@ void solve_constraints(WorldRecord& record, double time)
     use_detector(solver, solver.getCollisionDetector());
   record.sleep.contacts_found = false;
   const bool ode = solver.getCollisionDetector()->getType() == "ode";
-  check_range(record, ode, time);
+  check_range_of_free(record, time);
   check_limits(record);
   const auto lock = ode ? lock_ode() : std::unique_lock<OdeMutex>();
   solve(record, time);
@@ -206,9 +220,10 @@ void phases(WorldRecord& record)
   auto& world = *record.world;
   const double dt = world.getTimeStep(), end = world.getTime() + dt;
   auto& plan = record.plan;
-  for (const auto& item : plan.others)
-    if (item->skeleton->isMobile())
-      predict(record, *item, end);
+  while (plan.begun < plan.others.size()) {
+    auto& item = *plan.others[plan.begun++];
+    predict(record, item, end);
+  }
   plan.free.predict(world.getGravity(), dt);
   check_free(record, end);
   solve_constraints(record, end);
@@ -261,8 +276,8 @@ void clear_external_forces(Skeleton& skeleton)
 
 void go_back(WorldRecord& record)
 {
-  for (const auto& item : record.plan.others)
-    item->watch->restore();
+  for (std::size_t i = 0; i < record.plan.begun; ++i)
+    record.plan.others[i]->watch->restore();
   record.world->getConstraintSolver()->clearLastCollisionResult(); // its forces may not be finite
 }
 
@@ -274,8 +289,7 @@ void advance(WorldRecord& record)
     return pass(record);
   if (record.deterministic)
     forget_history(record);
-  for (const auto& item : make_plan(record).others)
-    watch(*item).save();
+  make_plan(record);
   try {
     phases(record);
   } catch (const Error& error) {

@@ -9,7 +9,10 @@ namespace pydart2 {
 /// the step.
 void advance(WorldRecord& world);
 
-/// Collision detection and the constraint impulses, for a state at the given time.
+/// So that none is left of an earlier step.
+void clear_impulses(dart::dynamics::Skeleton& skeleton);
+
+/// Collision detection and the constraint impulses, for a state at the given time, of skeletons without impulses.
 void solve_constraints(WorldRecord& world, double time);
 
 } // namespace pydart2
