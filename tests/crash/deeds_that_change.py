@@ -97,6 +97,21 @@ def add_body(h: Hands) -> None:
 
 
 @deed
+def move_branch(h: Hands) -> None:
+    skel, body = h.skel(), h.keep(h.body())
+    parent = h.random.choice([*skel.bodynodes, None])
+    given = {"position": h.vector(3, 0.3)} if h.flip() else {}
+    h.random.choice(
+        [
+            lambda: skel.attach(body, parent, h.odd(h.random.choice(JOINTS)), joint_name=h.odd("j"), **given),
+            lambda: skel.attach(body, parent),
+            lambda: h.has_room() and body.skel.detach(body),
+            lambda: skel.num_bodynodes() < 12 and skel.copy_branch(body, parent),
+        ]
+    )()
+
+
+@deed
 def add_shape(h: Hands) -> None:
     body = h.body()
     options: dict[str, Any] = {"position": h.vector(3, 0.2), "mass": h.random.choice((0, 0.1, h.number()))}

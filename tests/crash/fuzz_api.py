@@ -43,7 +43,7 @@ from pydart2.flat import api as flat_api
 #: What the documentation promises; anything else is a bug.
 DOCUMENTED = (pydart2.PydartError, ValueError, TypeError, IndexError, KeyError, AttributeError, OverflowError, OSError)
 CALLS_PER_WORLD = 400
-MOST_SECONDS = 10.0
+MOST_SECONDS = 10.0  # of the processor for one call
 #: The processes import the same package.
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(pydart2.__file__).parents[1])}
 
@@ -217,7 +217,7 @@ def example(draws: list[tuple[int, int, int, int, int]], tell: Callable[[str], N
             call = partial(do, thing, kind, name, arguments)
         text = f"{type(thing).__name__} {kind} {name} {arguments!r}".replace("\n", " ")[:300]
         tell(text)
-        start = time.monotonic()
+        start = time.process_time()
         try:
             call()
             accepted += 1
@@ -225,8 +225,8 @@ def example(draws: list[tuple[int, int, int, int, int]], tell: Callable[[str], N
             refused += 1
         except Exception as error:
             troubles.append(f"{text}: {error!r:.300}")
-        if time.monotonic() - start > MOST_SECONDS:
-            troubles.append(f"{text}: took {time.monotonic() - start:.1f} s")
+        if time.process_time() - start > MOST_SECONDS:
+            troubles.append(f"{text}: took {time.process_time() - start:.1f} s of the processor")
     for world in worlds:
         with contextlib.suppress(*DOCUMENTED):
             world.reset()

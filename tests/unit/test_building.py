@@ -411,6 +411,27 @@ def test_a_body_that_others_need_stays() -> None:
     world.step()
 
 
+@pytest.mark.parametrize(
+    ("joint", "change"),
+    [
+        ("weld", "set_root_joint_to_free"),
+        ("free", "set_root_joint_to_weld"),
+        ("free", "set_root_joint_to_trans_and_euler"),
+    ],
+)
+def test_a_root_joint_that_others_follow_stays(joint: str, change: str) -> None:
+    """They would follow what is gone."""
+    world = pydart.World(0.001)
+    skel = world.add_empty_skeleton()
+    for name in ("a", "b"):
+        skel.add_body(name, joint=joint, mass=1.0, inertia=np.eye(3))
+    skel.joint("b_joint").set_mimic(skel.joint("a_joint"))
+    with pytest.raises(ValueError, match=rf"'b_joint' follows joint 'a_joint', in whose place {change}\(\) would put"):
+        getattr(skel, change)()
+    assert skel.joint("b_joint").mimic() == (skel.joint("a_joint"), 1.0, 0.0)
+    world.clone().step()
+
+
 @pytest.mark.parametrize("detector", ["dart", "fcl", "bullet", "ode", "native"])
 def test_shapes_and_bodies_that_are_gone_do_not_collide(detector: str) -> None:
     world = pydart.World(0.001)

@@ -118,6 +118,13 @@ void SkeletonHandle::check_root_can_change(const char* what) const
   if (skeleton().getNumBodyNodes() == 0)
     throw Error(Kind::value, std::string(what) + " needs a skeleton with a body; '" + name() + "' has none");
   check_tree_can_change(what);
+  const Joint* root = skeleton().getRootJoint();
+  for (const Joint* joint : skeleton().getJoints())
+    if (joint != root && joint->getMimicJoint() == root)
+      throw Error(
+          Kind::value,
+          "joint '" + joint->getName() + "' follows joint '" + root->getName() + "', in whose place " + what
+              + " would put another one");
 }
 
 void SkeletonHandle::check_tree_can_change(const char* what) const
