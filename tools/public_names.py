@@ -7,6 +7,7 @@ of a public name is meant; the difference shows what users will see.
 
 from __future__ import annotations
 
+import enum
 import importlib
 import inspect
 import pkgutil
@@ -42,7 +43,9 @@ def is_a_part(cls: type) -> bool:
 
 
 def signature(value: object) -> str:
-    """Of a function, as written; nothing for what has none."""
+    """Of a function, as written; nothing for what has none, or Python's own, which differs by version."""
+    if isinstance(value, enum.EnumType):
+        return ""
     try:
         return str(inspect.signature(value))  # type: ignore[arg-type]
     except (TypeError, ValueError):
