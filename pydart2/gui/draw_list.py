@@ -50,7 +50,7 @@ class Show:
         External forces that were added "with arrow".
     centers_of_mass, frames, joint_axes : bool
     sleepers : bool
-        Bodies that sleep (`World.set_sleeping`) in a paler, bluish colour.
+        Bodies that sleep (`World.set_sleeping`), or slept in the recorded frame shown, in a paler, bluish colour.
     floor : Item or None
         Drawn besides, as what `first_look.floor_of` makes.
     """
@@ -145,11 +145,12 @@ class Scene:
         """Add what is to be shown of a world, and take its up."""
         show = show or Show()
         self.up = up_of(world)
+        sleepers = {skel.id for skel in world._sleepers_shown()} if show.sleepers else set()
         for skel in world.skeletons:
             first = len(self.items)
             if show.bodies:
                 self.add_skeleton(skel, collision_shapes=show.collision_shapes)
-            if show.sleepers and skel.is_asleep():
+            if skel.id in sleepers:
                 self.items[first:] = [
                     item._replace(rgba=np.append(0.35 * item.rgba[:3] + 0.65 * _ASLEEP, item.rgba[3]))
                     for item in self.items[first:]

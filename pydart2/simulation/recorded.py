@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+import numpy as np
+
 from pydart2.collision_result import CollisionResult
 from pydart2.recording import Recording
 from pydart2.simulation.part import WorldPart
 
 if TYPE_CHECKING:
+    from pydart2.skeleton import Skeleton
     from pydart2.world import World
 
 
@@ -16,6 +19,7 @@ class Recorded(WorldPart):
     """The part of World that records."""
 
     recording: Recording | None
+    _put_back: int | None = None  # the recorded frame
 
     def is_recording(self) -> bool:
         """Whether steps are recorded; by default they are."""
@@ -51,4 +55,14 @@ class Recorded(WorldPart):
         if not self._handle.set_frame(frame_index):
             return False
         self.collision_result = CollisionResult.from_rows(cast("World", self), self._handle.frame_contacts(frame_index))
+        self._put_back = frame_index
         return True
+
+    def _sleepers_shown(self) -> list[Skeleton]:
+        """Who sleeps; or slept in the recorded frame that was put back, as long as the state is that frame's."""
+        world, frame = cast("World", self), self._put_back
+        if frame is not None and self._handle.first_frame() <= frame < self._handle.num_frames():
+            recorded = Recording(world)
+            if np.array_equal(recorded.states(frame), world.x):
+                return recorded.sleepers(frame)
+        return world.sleepers()

@@ -241,4 +241,28 @@ def test_sleepers_are_paler() -> None:
     assert colours[0] == pytest.approx([0.8, 0.0, 0.0, 1.0])
     assert colours[1][2] > colours[0][2] + 0.3
     assert len(world.recording.sleepers(0)) == 0
-    assert world.recording.sleepers(world.recording.num_frames() - 1) == [world.skeletons[1]]
+    last = world.recording.num_frames() - 1
+    assert world.recording.sleepers(last) == [world.skeletons[1]]
+
+
+def test_recorded_frames_show_who_slept_then() -> None:
+    """As in the window when its slider is moved, and not who sleeps at the end of the recording."""
+    world = pydart2.World(0.002, up="z")
+    world.set_sleeping()
+    world.add_ground()
+    boxes = [world.add_box((0.2, 0.2, 0.2), 1.0, (0.5 * i, 0.0, 0.1 + 0.3 * i)) for i in range(2)]
+
+    def pale() -> list[int]:
+        shown = (from_world(world), from_world(world, Show(sleepers=True)))
+        return sorted({a.ids[0] for a, b in zip(*shown, strict=True) if not np.allclose(a.rgba, b.rgba)})
+
+    world.step(500)
+    assert world.recording is not None
+    slept = [world.recording.sleepers(frame) for frame in range(501)]
+    one, two = slept.index([boxes[0]]), slept.index(boxes)
+    assert 0 < one < two
+    for frame in (0, one, two, 500, one, 0):
+        assert world.set_frame(frame)
+        assert pale() == [box.id for box in slept[frame]]
+    world.step()
+    assert pale() == []
