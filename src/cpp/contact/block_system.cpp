@@ -373,7 +373,8 @@ bool Sweeps::find_corrections(const Island& island, double time_step, Eigen::Vec
       change = std::max(change, view.W(row, row) * std::abs(more));
     }
   };
-  for (int sweep = 0; sweep < options_.iterations && change > options_.tolerance; ++sweep) {
+  const double enough = std::max(options_.tolerance, 0.1 * options_.allowance / time_step);
+  for (int sweep = 0; sweep < options_.iterations && change > enough; ++sweep) {
     change = 0.0;
     for (auto block = first; block != last; ++block)
       with_view(*block, solve_rows);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <dart/common/Console.hpp>
+#include <limits>
 #include <numeric>
 
 #include "base/parallel.hpp"
@@ -68,7 +69,7 @@ void IterativeSolver::find_sources()
   rows_.resize(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     engine::read_rows(*constraints_[i], rows_[i]);
-    sources_.push_back({static_cast<int>(i), none, {}, 0, 0});
+    sources_.push_back({static_cast<int>(i), none, {}});
     if (rows_[i].kind == Rows::Kind::joint) // first: such a body is no free one
       sources_.back().places[0] = movers_.add_joint(*rows_[i].joint.joint->getChildBodyNode());
   }
@@ -82,7 +83,7 @@ void IterativeSolver::find_sources()
     for (const std::size_t side : {0, 1})
       if (bodies[side] != contacts_[i].bodies[side])
         places[side] = movers_.add(bodies[side] = contacts_[i].bodies[side], contacts_[i].free[side]);
-    sources_.push_back({none, static_cast<int>(i), places, 0, 0});
+    sources_.push_back({none, static_cast<int>(i), places});
   }
   const auto moves_nothing = [](const Source& source) { return source.places[0].mover == none && source.places[1].mover == none; };
   sources_.erase(std::remove_if(sources_.begin(), sources_.end(), moves_nothing), sources_.end());
@@ -90,7 +91,7 @@ void IterativeSolver::find_sources()
     sources_[i].order = static_cast<int>(i);
 }
 
-/// Sorts the sources by what they move together.
+/// Sorts the sources by what they move together, and then from the top: what is next to the ground is solved last, and holds.
 void IterativeSolver::find_islands()
 {
   std::vector<int> root(static_cast<std::size_t>(movers_.size()));
@@ -117,12 +118,48 @@ void IterativeSolver::find_islands()
   island_of_.resize(root.size());
   for (std::size_t mover = 0; mover < root.size(); ++mover)
     island_of_[mover] = numbers[find(static_cast<int>(mover))];
-  const auto sooner = [](const Source& a, const Source& b) { return a.island < b.island; };
+  find_steps();
+  const auto sooner = [](const Source& a, const Source& b) { return a.island != b.island ? a.island < b.island : a.steps > b.steps; };
   if (!std::is_sorted(sources_.begin(), sources_.end(), sooner))
     std::stable_sort(sources_.begin(), sources_.end(), sooner);
   blocks_.resize(sources_.size());
   for (std::size_t i = 0; i < sources_.size(); ++i)
     blocks_[static_cast<std::size_t>(sources_[i].order)] = i;
+}
+
+/// Over how many others each source rests on what nothing moves: breadth first, so that it is linear in their number.
+void IterativeSolver::find_steps()
+{
+  const auto index = [](int i) { return static_cast<std::size_t>(i); };
+  std::vector<std::vector<int>::size_type> ends(index(movers_.size()) + 1, 0); // of each mover's part of `touching`
+  for (const auto& source : sources_)
+    for (const auto& place : source.places)
+      if (place.mover != none)
+        ++ends[index(place.mover)];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<int> touching(ends.back()), reached;
+  auto begins = ends;
+  for (std::size_t i = sources_.size(); i-- > 0;)
+    for (const auto& place : sources_[i].places)
+      if (place.mover != none)
+        touching[--begins[index(place.mover)]] = static_cast<int>(i);
+  constexpr int far = std::numeric_limits<int>::max();
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    auto& source = sources_[i];
+    const bool one_side = source.places[0].mover == none || source.places[1].mover == none;
+    const bool joint = source.constraint != none && rows_[index(source.constraint)].kind == Rows::Kind::joint;
+    source.steps = one_side && !joint ? 0 : far;
+    if (source.steps == 0)
+      reached.push_back(static_cast<int>(i));
+  }
+  for (std::size_t next = 0; next < reached.size(); ++next)
+    for (const auto& place : sources_[index(reached[next])].places)
+      if (place.mover != none)
+        for (auto& k = begins[index(place.mover)]; k < ends[index(place.mover)]; ++k) // each mover's once
+          if (auto& other = sources_[index(touching[k])]; other.steps == far) {
+            other.steps = sources_[index(reached[next])].steps + 1;
+            reached.push_back(touching[k]);
+          }
 }
 
 void IterativeSolver::place_velocities()

@@ -65,7 +65,9 @@ private:
   {
     int constraint = -1, contact = -1;
     std::array<Movers::Place, 2> places{};
-    int island = 0, order = 0; ///< The order in which they came.
+    int island = 0;
+    int steps = 0; ///< To what nothing moves.
+    int order = 0; ///< In which they came.
   };
   struct Correction
   {
@@ -75,6 +77,7 @@ private:
 
   void find_sources();
   void find_islands();
+  void find_steps();
   void place_velocities();
   void place_blocks();
   void fill(double time_step);
