@@ -4,7 +4,7 @@
 # make wheel  a wheel that carries DART, and the source archive, in dist/; both as an index would check them
 # make engine the same DART with -O3 -DNDEBUG in build/engine/prefix; then PYDART2_DART_PREFIX=build/engine/prefix make ...
 # make test-debian13, make test-packaging, make test-third-party, make test-mujoco, make test-viewer, make test-launches, make test-solver,
-#   make fuzz, make soak, make mutations, make sanitize, make coverage, make bench   see tests/README.md
+#   make test-heaps, make fuzz, make soak, make mutations, make sanitize, make coverage, make bench   see tests/README.md
 # Set-up (tools/setup.sh): Debian packages, .venv, build and install; what is done already is not done again.
 PYTHON ?= python3
 VENV := .venv
@@ -16,7 +16,7 @@ FUZZ_CALLS ?= 1000000
 FUZZ_SECONDS ?= 300
 
 .PHONY: demo test ahead docs test-debian13 test-packaging test-third-party test-mujoco test-viewer test-launches test-solver features fuzz mutations \
-  test-limp soak sanitize coverage \
+  test-limp test-heaps soak sanitize coverage \
   bench wheel engine lint setup clean
 
 demo: setup
@@ -62,6 +62,10 @@ test-launches: setup
 # The limp human falls from 1,000 starts of 5 s and 20 of 60 s, at 1 and 2 ms; LIMP_STARTS=100 for fewer.
 test-limp: setup
 	$(VENV)/bin/python -m pytest -m soak -s tests/soak/test_soak.py -k limp
+
+# 10,000 heaps of random bodies, 0.4 s each; each shape dropped on each other; what stands does so for 10 s.
+test-heaps: setup
+	$(VENV)/bin/python -m pytest -m soak tests/physics/test_heaps.py
 
 soak: setup
 	$(VENV)/bin/python -m pytest -m soak -s
