@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import pydart2
+from pydart2.building.skins import Skin
 
 FAST = 1e25  # rad/s: the next step's numbers are beyond all reason
 
@@ -139,3 +140,19 @@ def test_by_default_it_raises_and_says_how_not_to() -> None:
         blow_up(world)
     with pytest.raises(ValueError, match="got 'NaN'"):
         world.set_blow_up("NaN")
+
+
+def test_a_robot_that_got_the_mass_it_lacked_steps() -> None:
+    """The engine looks at the acceleration that a body had when it was last asked for, if there are soft bodies."""
+    world = pydart2.World(0.001)
+    skel = world.add_empty_skeleton("robot")
+    wrist = skel.add_body("wrist", joint="ball")
+    with pytest.raises(pydart2.SimulationError, match="moves nothing that has inertia"):
+        world.step()
+    skin = Skin.box([0.2, 0.2, 0.2], 1.0, 1)
+    skel.add_body("hand", wrist, "translational", mass=1.0, inertia=np.eye(3), skin=skin)
+    copy = world.clone()
+    for each in (world, copy):
+        each.step(3)
+    np.testing.assert_array_equal(world.x, copy.x)
+    assert abs(skel.dq).max() > 0.01

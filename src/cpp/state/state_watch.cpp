@@ -42,6 +42,8 @@ void StateWatch::restore()
     point->setAccelerations(saved.segment<3>(at + 6));
     at += 9;
   }
+  for (const auto* body : skeleton_.getBodyNodes())
+    body->getSpatialAcceleration(); // of which the engine looks at the last that was asked for, and it may be NaN
   skeleton_.clearConstraintImpulses();
   skeleton_.setImpulseApplied(false);
   for (auto* point : points_)
