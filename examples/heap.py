@@ -10,7 +10,7 @@ from _headless import arguments, rehearse
 
 import pydart2 as pydart
 
-COUNT, HALF, WALL = 500, 0.8, 0.8  # bodies; half the width of the box, m; height of its walls, m
+COUNT, HALF, WALL = 500, 0.8, 1.2  # bodies; half the width of the box, m; height of its walls, m
 
 
 def pour(world: pydart.World) -> None:

@@ -52,6 +52,7 @@ CLAIMS = {
     "soft_cushion": 2,
     "three_thousand_shapes": 4,
     "view_skeleton": 0,
+    "wall": 3,
 }
 WRITTEN = {"headless_video": ["pictures"]}
 PRINTED = {
