@@ -36,9 +36,9 @@ each other after {compared:g} s, in m. Files that do not load, or in which nothi
 ADVICE = """
 The default stays as it is: the engine's bits are promised under it, and soft bodies touch with FCL alone (without it
 they fall, as in `softBodies`). For rigid bodies the new ones take less time from the first contact on, but where meshes
-meet other shapes; poses at rest differ by less than a centimetre, and rest is quieter. From five boxes on each other
-on, or some 30 contacts in one group, they take a tenth of the time and less: name them there, and wherever many bodies
-lie about.
+meet other shapes; poses part by less than a centimetre, but for a mesh that falls on an edge, and rest is mostly
+quieter. From five boxes on each other on, or some 30 contacts in one group, they take a tenth of the time and less:
+name them there, and wherever many bodies lie about.
 """
 
 

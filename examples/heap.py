@@ -61,7 +61,7 @@ if __name__ == "__main__":
     pour(world)
 
     if args.headless:
-        camera = pydart.gui.Camera.look_at([1.5, -1.4, 2.3], [0.0, 0.0, 0.2], up=[0.0, 0.0, 1.0])
+        camera = pydart.gui.Camera.look_at([1.1, -1.1, 3.0], [0.0, 0.0, 0.3], up=[0.0, 0.0, 1.0])
         rehearse(world, args, steps=600, check=lambda: check(world), camera=camera)
     else:
         pydart.gui.viewer.launch(world)

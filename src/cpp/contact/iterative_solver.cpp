@@ -122,6 +122,11 @@ void IterativeSolver::find_islands()
   const auto sooner = [](const Source& a, const Source& b) { return a.island != b.island ? a.island < b.island : a.steps > b.steps; };
   if (!std::is_sorted(sources_.begin(), sources_.end(), sooner))
     std::stable_sort(sources_.begin(), sources_.end(), sooner);
+  for (auto first = sources_.begin(); first != sources_.end();) { // of two bodies the last point first: stacks sway less
+    const auto last = std::find_if(first, sources_.end(), [&](const Source& source) { return !source.joins_as(*first); });
+    std::reverse(first, last);
+    first = last;
+  }
   blocks_.resize(sources_.size());
   for (std::size_t i = 0; i < sources_.size(); ++i)
     blocks_[static_cast<std::size_t>(sources_[i].order)] = i;

@@ -68,6 +68,8 @@ private:
     int island = 0;
     int steps = 0; ///< To what nothing moves.
     int order = 0; ///< In which they came.
+
+    bool joins_as(const Source& other) const { return places[0].mover == other.places[0].mover && places[1].mover == other.places[1].mover; }
   };
   struct Correction
   {
