@@ -8,7 +8,7 @@ from pydart2.errors import NameNotFound
 from pydart2.simulation.part import WorldPart
 
 _ITERATIVE: dict[str, float | str] = {
-    "iterations": 50,
+    "iterations": 40,
     "tolerance": 1e-6,
     "friction": "pyramid",
     "stabilisation": "split",
@@ -106,7 +106,7 @@ class StepOptions(WorldPart):
         set_contact_reduction() on, the others switch them off. Its options (a TypeError for others):
 
         ========================== ======================================================================
-        `iterations` = 50          sweeps in a step, at most
+        `iterations` = 40          sweeps in a step, at most
         `tolerance` = 1e-6         m/s, rad/s: the sweeps end when none changes a velocity by more
         `friction` = "pyramid"     each of two tangents within mu times the normal force, so that along their
                                    diagonal it reaches sqrt(2) times that; "cone": both together; "engine": bounds
