@@ -45,7 +45,7 @@ class Throw:
         steps = round(self.ball.world.t / self.ball.world.dt)
         if steps < STANDS:
             self.moved = float(np.abs(self.places() - self.built).max())
-            return np.r_[np.zeros(5), 9.81 * self.ball.m]
+            return np.asarray(np.r_[np.zeros(5), 9.81 * self.ball.m])
         if steps == STANDS:
             self.ball.dq = [0.0, 0.0, 0.0, 0.0, 8.0, 2.0]
         return np.zeros(6)
