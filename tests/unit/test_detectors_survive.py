@@ -124,3 +124,20 @@ def test_a_mesh_without_a_triangle_is_refused(tmp_path: Path, obj: str) -> None:
         with pytest.raises(pydart2.LoadError, match="mesh"):
             world.add_skeleton(robot_with(tmp_path, obj), safe=safe)
     assert world.skeletons == []
+
+
+@pytest.mark.parametrize("detector", DETECTORS)
+@pytest.mark.parametrize("soft", [False, True])
+def test_a_ball_on_the_axis_of_a_cylinder(detector: str, soft: bool) -> None:
+    """ODE finds a contact there whose normal is NaN, with which the engine ended the process."""
+    world = pydart2.World(0.001)
+    world.set_collision_detector(detector)
+    if soft:
+        world.add_soft_ellipsoid((0.3, 0.3, 0.3), 1.0, (0.0, 0.0, 0.0))
+    else:
+        world.add_sphere(0.01, 1.0, (0.0, 0.0, 0.0))
+    world.add_cylinder(0.02, 0.2, 1.0, (0.0, 0.0, 0.0))
+    world.check_collision()
+    assert np.isfinite(world.collision_result.rows).all()
+    world.step(20)
+    assert np.isfinite(world.x).all()

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "collision/detector.hpp"
 #include "collision/missing_pairs.hpp"
 
@@ -20,7 +22,8 @@ public:
     const auto engine = [&](const dart::collision::CollisionOption& part) {
       return Engine::collide(group, part, result);
     };
-    return engine_shapes ? engine(option) : missing_.collide(*this, *group, option, result, engine);
+    const bool any = engine_shapes ? engine(option) : missing_.collide(*this, *group, option, result, engine);
+    return result == nullptr ? any : any && leave_out_nan(*result);
   }
 
   std::unique_ptr<dart::collision::CollisionGroup> createCollisionGroup() override
@@ -51,6 +54,23 @@ protected:
   void forget() { missing_.forget(); }
 
 private:
+  /// The engine leaves out contacts whose normal is zero; one of NaN, which ODE gives for a capsule in the middle of a
+  /// mesh, would end the process. Whether all that was found is not left out.
+  static bool leave_out_nan(dart::collision::CollisionResult& result)
+  {
+    const auto& now = result.getContacts();
+    const auto is_whole = [](const dart::collision::Contact& contact) { return contact.normal.allFinite(); };
+    if (std::all_of(now.begin(), now.end(), is_whole))
+      return true;
+    const auto found = now;
+    result.clear();
+    std::for_each(found.begin(), found.end(), [&](const auto& contact) {
+      if (is_whole(contact))
+        result.addContact(contact);
+    });
+    return result.isCollision();
+  }
+
   MissingPairs missing_;
 };
 
