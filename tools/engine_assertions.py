@@ -75,7 +75,7 @@ RULES = [
     (
         "ContactConstraint",
         "normal",
-        "the engine leaves out contacts without a normal, our detectors those with one of NaN; tangents are normalised; states are finite",
+        "contacts without a normal or with NaN are left out, tangents normalised; states are finite",
     ),
     ("SoftContactConstraint", "D.col", "tangents of a unit normal, normalised; states are finite"),
     ("Constraint.cpp", "isActive|isReactive", "the solver asks isActive() first, which says whether a body can move"),
