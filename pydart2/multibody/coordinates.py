@@ -126,8 +126,7 @@ class Coordinates(Structure):
 
     @tau.setter
     def tau(self, tau: ArrayLike) -> None:
-        self._handle.set_forces(tau)
-        self._read_tau()  # the step will clear the engine's
+        self._tau = self._handle.set_forces(tau, self._pattern)  # the step will clear the engine's
 
     set_tau = also(set_forces)
 

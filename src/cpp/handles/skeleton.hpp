@@ -66,7 +66,8 @@ public:
   void set_positions(const VectorIn& positions);
   void set_velocities(const VectorIn& velocities);
   void set_accelerations(const VectorIn& accelerations);
-  void set_forces(const VectorIn& forces);
+  /// What they are then comes out, until a step clears them.
+  void set_forces(const VectorIn& forces, Output& like);
   void set_commands(const VectorIn& commands);
 
   /// [q, dq].

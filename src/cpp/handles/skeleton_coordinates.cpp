@@ -60,7 +60,7 @@ void SkeletonHandle::accelerations(Output& like) const
 
 void SkeletonHandle::forces(Output& like) const
 {
-  each_dof(like, [](const DegreeOfFreedom& dof) { return dof.getForce(); });
+  gather(state().forces, like);
 }
 
 void SkeletonHandle::commands(Output& like) const
@@ -98,14 +98,15 @@ void SkeletonHandle::set_accelerations(const VectorIn& accelerations)
   skeleton().setAccelerations(per_dof(accelerations, "accelerations"));
 }
 
-void SkeletonHandle::set_forces(const VectorIn& forces)
+void SkeletonHandle::set_forces(const VectorIn& forces, Output& like)
 {
-  if (skeleton_.skeleton->not_numbers)
-    return; // nothing moves, and what a controller makes of NaN is NaN
-  const auto& values = per_dof(forces, "forces");
-  const auto& dofs = skeleton_.get_to_push(!values.isZero(0.0))->getDofs();
-  for (std::size_t i = 0; i < dofs.size(); ++i)
-    dofs[i]->setForce(values[static_cast<long>(i)]);
+  if (!skeleton_.skeleton->not_numbers) { // else nothing moves, and what a controller makes of NaN is NaN
+    const auto& values = per_dof(forces, "forces");
+    const auto& dofs = skeleton_.get_to_push(!values.isZero(0.0))->getDofs();
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      dofs[i]->setForce(values[static_cast<long>(i)]);
+  }
+  this->forces(like);
 }
 
 void SkeletonHandle::set_commands(const VectorIn& commands)

@@ -14,7 +14,7 @@ namespace {
 
 struct Address
 {
-  const double *position, *velocity, *acceleration;
+  const double *position, *velocity, *acceleration, *force;
   bool (*at_rest)(const dart::dynamics::Joint&);
 };
 
@@ -47,6 +47,7 @@ bool find(const dart::dynamics::Joint& joint, std::size_t i, Address& address)
       typed->getPositionsStatic().data() + i,
       typed->getVelocitiesStatic().data() + i,
       typed->getAccelerationsStatic().data() + i,
+      typed->getAspectState().mForces.data() + i,
       at_rest<Space>};
   return true;
 }
@@ -68,6 +69,7 @@ DofState::DofState(const dart::dynamics::Skeleton& skeleton)
     positions.push_back(address.position);
     velocities.push_back(address.velocity);
     accelerations.push_back(address.acceleration);
+    forces.push_back(address.force);
     if (i == 0)
       joints_.push_back({&joint, address.at_rest});
   }

@@ -5,7 +5,7 @@
 
 namespace pydart2 {
 
-/// Where the engine keeps the position, velocity and acceleration of each dof, in the order of the dofs. Reading there
+/// Where the engine keeps the position, velocity, acceleration and force of each dof, in the order of the dofs. Reading there
 /// costs a tenth of asking dof after dof. Valid until the tree changes.
 struct DofState
 {
@@ -13,13 +13,13 @@ struct DofState
 
   std::size_t size() const { return positions.size(); }
 
-  /// From now on all places hold NaN.
+  /// From now on all places but the forces' hold NaN.
   void become_not_numbers();
 
   /// Whether Skeleton::resetCommands() would change nothing.
   bool commands_at_rest() const;
 
-  std::vector<const double*> positions, velocities, accelerations;
+  std::vector<const double*> positions, velocities, accelerations, forces;
 
 private:
   struct JointCommands
