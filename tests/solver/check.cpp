@@ -79,7 +79,7 @@ protected:
     }
     ConstraintMatrix::Matrix ours(size, dPAD(size));
     matrix_.read(group, mSkeletons);
-    matrix_.fill(group, mTimeStep, ours);
+    matrix_.fill(&group, mTimeStep, ours);
     const auto theirs = engine_matrix(group, ours.cols());
     report_.rows = std::max(report_.rows, size);
     const double difference = (ours - theirs).cwiseAbs().maxCoeff();
@@ -165,7 +165,7 @@ public:
         skeleton.integrateVelocities(dt);
       }
     }
-    world_.getConstraintSolver()->solve();
+    solve();
     for (std::size_t i = 0; i < dynamics_.size(); ++i)
       if (world_.getSkeleton(i)->isMobile())
         finish(*world_.getSkeleton(i), ours[i], dt);
@@ -175,6 +175,23 @@ public:
   long skeletons = 0; ///< Steps of a skeleton that were ours.
 
 private:
+  void solve()
+  {
+    std::vector<dart::dynamics::SkeletonPtr> skeletons, jointed;
+    bool rigid = true;
+    for (std::size_t i = 0; i < world_.getNumSkeletons(); ++i) {
+      const auto skeleton = world_.getSkeleton(i);
+      skeleton->clearConstraintImpulses();
+      skeleton->setImpulseApplied(false);
+      rigid &= skeleton->getNumSoftBodyNodes() == 0;
+      skeletons.push_back(skeleton);
+      if (pydart2::may_have_constraints(*skeleton))
+        jointed.push_back(skeleton);
+    }
+    pydart2::FreeBodies free;
+    pydart2::fast_solver(world_).solve_step({skeletons, jointed, rigid, &free, false, nullptr});
+  }
+
   static void finish(dart::dynamics::Skeleton& skeleton, pydart2::TreeDynamics* ours, double dt)
   {
     if (skeleton.isImpulseApplied()) {

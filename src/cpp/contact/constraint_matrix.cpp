@@ -38,27 +38,42 @@ void sum(SumOrder order, const Products& p, double* values, int size)
 
 } // namespace
 
-void ConstraintMatrix::read(ConstrainedGroup& group, const std::vector<SkeletonPtr>& skeletons)
+void ConstraintMatrix::clear()
 {
+  items_.clear();
   trees_.clear();
   joint_readings_.clear();
   points_.clear();
   point_readings_.clear();
   point_numbers_.clear();
   foreign_.clear();
-  items_.resize(group.getNumConstraints());
-  int rows = 0;
-  for (std::size_t i = 0; i < items_.size(); ++i) {
-    auto& item = items_[i];
+}
+
+engine::Rows& ConstraintMatrix::add_rows(int count)
+{
+  const int begin = items_.empty() ? 0 : items_.back().end;
+  auto& item = items_.emplace_back();
+  item.begin = begin;
+  item.end = begin + count;
+  return item.rows;
+}
+
+void ConstraintMatrix::read(ConstrainedGroup& group, const std::vector<SkeletonPtr>& skeletons)
+{
+  clear();
+  for (std::size_t i = 0; i < group.getNumConstraints(); ++i) {
     const auto constraint = group.getConstraint(i);
-    engine::read_rows(*constraint, item.rows);
-    item.begin = rows;
-    item.end = rows += static_cast<int>(constraint->getDimension());
-    item.bodies = item.points = {none, none};
-    item.by_engine = item.rows.kind == Rows::Kind::unknown;
-    if (item.by_engine)
+    engine::read_rows(*constraint, add_rows(static_cast<int>(constraint->getDimension())));
+    if (items_.back().rows.kind == Rows::Kind::unknown) {
+      items_.back().by_engine = true;
       find_foreign(*constraint, skeletons);
+    }
   }
+  settle();
+}
+
+void ConstraintMatrix::settle()
+{
   for (auto& item : items_)
     if (item.rows.kind == Rows::Kind::joint)
       add_joint(item);
@@ -168,14 +183,14 @@ void ConstraintMatrix::gather_readings()
   });
 }
 
-void ConstraintMatrix::fill(ConstrainedGroup& group, double time_step, Matrix& A)
+void ConstraintMatrix::fill(ConstrainedGroup* group, double time_step, Matrix& A)
 {
   gather_readings();
   for (const auto& item : items_)
     A.block(item.begin, item.begin, item.end - item.begin, A.cols() - item.begin).setZero();
   for (std::size_t i = 0; i < items_.size(); ++i)
     if (items_[i].by_engine)
-      fill_rows_by_engine(group, i, A);
+      fill_rows_by_engine(*group, i, A);
     else
       fill_rows(items_[i], time_step, A);
   // Below the diagonal as above it, but for the square of each constraint, which is full.
@@ -275,18 +290,24 @@ void ConstraintMatrix::apply(ConstrainedGroup& group, double time_step, Eigen::V
       constraint->excite();
       continue;
     }
-    // A contact of the engine asks ten times whether its bodies can move.
-    const auto& rows = item.rows.bodies;
-    for (const int side : {0, 1}) {
-      if (item.bodies[side] == none)
-        continue;
-      auto& body = *rows.bodies[side];
-      Eigen::Vector6d sum = body.getConstraintImpulse();
-      for (int row = 0; row < item.end - item.begin; ++row)
-        sum += rows.directions[side].col(row) * impulse[row];
-      body.setConstraintImpulse(sum);
-      body.getSkeleton()->setImpulseApplied(true);
-    }
+    apply(i, impulse);
+  }
+}
+
+/// A contact of the engine asks ten times whether its bodies can move.
+void ConstraintMatrix::apply(std::size_t constraint, const double* impulses) const
+{
+  const auto& item = items_[constraint];
+  const auto& rows = item.rows.bodies;
+  for (const int side : {0, 1}) {
+    if (item.bodies[side] == none)
+      continue;
+    auto& body = *rows.bodies[side];
+    Eigen::Vector6d sum = body.getConstraintImpulse();
+    for (int row = 0; row < item.end - item.begin; ++row)
+      sum += rows.directions[side].col(row) * impulses[row];
+    body.setConstraintImpulse(sum);
+    body.getSkeleton()->setImpulseApplied(true);
   }
 }
 

@@ -28,11 +28,20 @@ public:
   /// Reads the rows of a group; `skeletons` are all that its constraints may act on.
   void read(dart::constraint::ConstrainedGroup& group, const std::vector<dart::dynamics::SkeletonPtr>& skeletons);
 
-  /// Fills A, square and as large as the group that was read. `time_step` is the one of the contacts.
-  void fill(dart::constraint::ConstrainedGroup& group, double time_step, Matrix& A);
+  /// The same of constraints of known kinds: the rows of one after the other are to be filled in, then settled.
+  void clear();
+  engine::Rows& add_rows(int count);
+  void settle();
+
+  /// Fills A, square and as large as the group that was read, which may be null if all kinds are known. `time_step` is the
+  /// one of the contacts.
+  void fill(dart::constraint::ConstrainedGroup* group, double time_step, Matrix& A);
 
   /// Applies the impulses of all rows to the bodies, as each constraint would.
   void apply(dart::constraint::ConstrainedGroup& group, double time_step, Eigen::VectorXd& impulses) const;
+
+  /// Applies those of one constraint of two bodies.
+  void apply(std::size_t constraint, const double* impulses) const;
 
 private:
   using Skeleton = dart::dynamics::Skeleton;

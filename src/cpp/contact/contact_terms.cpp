@@ -105,6 +105,7 @@ ContactTerms ContactReader::read(dart::collision::Contact& contact, const native
   terms.contact = &contact;
   terms.bodies = {a.body, b.body};
   terms.free = {a.free, b.free};
+  terms.first_direction = take_a || b_has ? first.normalized() : first;
   terms.directions = basis(contact.normal, first);
   for (const std::size_t i : {0, 1}) { // the first tangent lies across the first direction
     terms.friction[1 - i] = std::min(a.friction[i], b.friction[i]);
@@ -134,8 +135,8 @@ void share_slip(std::vector<ContactTerms>& contacts)
 double engine_correction(double depth, double time_step)
 {
   const double over = std::max(0.0, depth - ContactConstraint::getErrorAllowance());
-  return std::min(
-      over * ContactConstraint::getErrorReductionParameter() / time_step, ContactConstraint::getMaxErrorReductionVelocity());
+  const double rate = ContactConstraint::getErrorReductionParameter() * (1.0 / time_step); // to the bit
+  return std::min(over * rate, ContactConstraint::getMaxErrorReductionVelocity());
 }
 
 double parting_speed(const ContactTerms& contact, double approach, double correction)

@@ -17,6 +17,7 @@ struct ContactTerms
   const native::Touch* touch = nullptr; ///< If the native detector found it.
   std::array<dart::dynamics::BodyNode*, 2> bodies;
   std::array<int, 2> free{-1, -1}; ///< Their places among the free bodies.
+  Eigen::Vector3d first_direction;           ///< Of friction, of length 1.
   std::array<Eigen::Vector3d, 3> directions; ///< The normal and two tangents, of the world.
   std::array<double, 2> friction{0.0, 0.0}; ///< Coefficients along the tangents.
   std::array<double, 2> slip{0.0, 0.0}; ///< Compliance along the tangents, m/(N s).

@@ -113,10 +113,31 @@ void FastConstraintSolver::solve_step(const Step& step)
 /// The engine's solve(), with what wakes, and without flags of colliding bodies that nobody reads.
 void FastConstraintSolver::solve_by_groups(const Step& step)
 {
-  find_constraints(step);
+  const bool only_contacts = step.rigid && step.jointed.empty() && mManualConstraints.empty();
+  if (only_contacts && solver_ == Solver::fast && !contact_reduction_) {
+    clear_constraints();
+    mCollisionResult.clear();
+    mCollisionGroup->collide(mCollisionOption, &mCollisionResult);
+    if (!wake(step))
+      return solve_contacts();
+    updateConstraints();
+  } else {
+    find_constraints(step);
+  }
   drop_fixed_skins(*this);
   buildConstrainedGroups();
   solveConstrainedGroups();
+}
+
+void FastConstraintSolver::clear_constraints()
+{
+  mActiveConstraints.clear();
+  mContactConstraints.clear();
+  mSoftContactConstraints.clear();
+  mJointConstraints.clear();
+  mMimicMotorConstraints.clear();
+  mJointCoulombFrictionConstraints.clear();
+  mConstrainedGroups.clear();
 }
 
 void FastConstraintSolver::find_constraints(const Step& step)
@@ -214,7 +235,7 @@ void FastConstraintSolver::solve_exactly(ConstrainedGroup& group)
   for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
     scale_error(*group.getConstraint(i));
   largest_group_ = std::max(largest_group_, static_cast<int>(group.getTotalDimension()));
-  check_memory(group);
+  check_memory(group.getTotalDimension());
   if (solver_ == Solver::dart || shared_) {
     remove_empty_constraints(group);
     BoxedLcpConstraintSolver::solveConstrainedGroup(group);
@@ -229,18 +250,24 @@ void FastConstraintSolver::solve_exactly(ConstrainedGroup& group)
     return;
   read_terms(group);
   matrix_.read(group, mSkeletons);
-  mA.resize(size, dPAD(size));
-  matrix_.fill(group, mTimeStep, mA);
-  problem_.keep(mA, mB, mLo, mHi, mFIndex);
-  solve_lcp(group);
-  take_residual(mX);
+  solve_rows(&group, static_cast<std::size_t>(&group - mConstrainedGroups.data()));
   matrix_.apply(group, mTimeStep, mX);
 }
 
-/// The solvers keep the matrix twice, the second time to begin anew from.
-void FastConstraintSolver::check_memory(const ConstrainedGroup& group) const
+/// Of what was read, and is a group of the engine's or all contacts.
+void FastConstraintSolver::solve_rows(ConstrainedGroup* group, std::size_t number)
 {
-  const double rows = static_cast<double>(const_cast<ConstrainedGroup&>(group).getTotalDimension());
+  mA.resize(mX.size(), dPAD(mX.size()));
+  matrix_.fill(group, mTimeStep, mA);
+  problem_.keep(mA, mB, mLo, mHi, mFIndex);
+  solve_lcp(number);
+  take_residual(mX);
+}
+
+/// The solvers keep the matrix twice, the second time to begin anew from.
+void FastConstraintSolver::check_memory(std::size_t count) const
+{
+  const double rows = static_cast<double>(count);
   const double bytes = 2.0 * rows * rows * sizeof(double);
   if (bytes <= memory_limit_)
     return;
@@ -304,11 +331,10 @@ void FastConstraintSolver::read_terms(ConstrainedGroup& group)
   }
 }
 
-void FastConstraintSolver::solve_lcp(ConstrainedGroup& group)
+void FastConstraintSolver::solve_lcp(std::size_t group)
 {
   if (warm_start_) {
-    const auto index = static_cast<std::size_t>(&group - mConstrainedGroups.data());
-    if (warm_lcp_.solve(index, {mA, mB, mLo, mHi, mFIndex}, warm_x_)) {
+    if (warm_lcp_.solve(group, {mA, mB, mLo, mHi, mFIndex}, warm_x_)) {
       mX = warm_x_;
       return;
     }

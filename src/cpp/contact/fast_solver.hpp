@@ -10,6 +10,7 @@
 
 #include "contact/constraint_matrix.hpp"
 #include "contact/dantzig_lcp.hpp"
+#include "contact/direct_contacts.hpp"
 #include "contact/exact_residual.hpp"
 #include "contact/iterative_solver.hpp"
 #include "contact/warm_lcp.hpp"
@@ -50,6 +51,7 @@ public:
   {
     std::vector<dart::dynamics::SkeletonPtr>& skeletons; ///< That are awake, without those in `free`; no impulse acts on them.
     std::vector<dart::dynamics::SkeletonPtr>& jointed;   ///< Of them those with joints that may have rows.
+    bool rigid; ///< No skeleton has a soft body.
     FreeBodies* free;
     bool same; ///< No skeleton has changed since the step before but for its state.
     /// Asked with the contacts for the sleepers that wake, after which the contacts are found anew; null if none sleeps.
@@ -93,6 +95,8 @@ protected:
 private:
   bool nothing_collides() const;
   void solve_by_groups(const Step& step);
+  void clear_constraints();
+  void solve_contacts();
   void find_constraints(const Step& step);
   bool wake(const Step& step);
   void solve_by_sweeps(const Step& step);
@@ -106,9 +110,10 @@ private:
   void solve_exactly(dart::constraint::ConstrainedGroup& group);
   void take_residual(const Eigen::VectorXd& x) { exact_residual_ = std::max(exact_residual_, problem_.of(x)); }
   bool groups_share_skeletons();
-  void check_memory(const dart::constraint::ConstrainedGroup& group) const;
+  void check_memory(std::size_t rows) const;
   void read_terms(dart::constraint::ConstrainedGroup& group);
-  void solve_lcp(dart::constraint::ConstrainedGroup& group);
+  void solve_rows(dart::constraint::ConstrainedGroup* group, std::size_t number);
+  void solve_lcp(std::size_t group);
   void solve_lcp_again();
 
   Solver solver_ = Solver::fast;
@@ -119,6 +124,8 @@ private:
   double error_reduction_ = engine_error_reduction();
   bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
   ConstraintMatrix matrix_;
+  DirectContacts contacts_;
+  std::vector<DirectContacts::Row> rows_;
   DantzigLcp dantzig_lcp_;
   IterativeSolver iterative_;
   WarmLcp warm_lcp_;
@@ -133,6 +140,9 @@ constexpr std::size_t unlimited_contacts = std::numeric_limits<int>::max();
 /// Gives a world such a solver. Its collision detector, contacts, constraints and LCP solvers stay as they are, and so
 /// does the order of its contacts.
 void install_solver(dart::simulation::World& world, Solver solver);
+
+/// Whether joints of a skeleton may have rows: of limits, servos, mimics and dry friction.
+bool may_have_constraints(const dart::dynamics::Skeleton& skeleton);
 
 /// The solver that install_solver() gave.
 FastConstraintSolver& fast_solver(const dart::simulation::World& world);

@@ -39,7 +39,22 @@ bool has_soft_body(const ConstraintBasePtr& constraint)
   });
 }
 
+bool may_have_constraints(const Joint& joint)
+{
+  const auto actuator = joint.getActuatorType();
+  bool any = joint.areLimitsEnforced() || actuator == Joint::SERVO || actuator == Joint::MIMIC;
+  for (std::size_t i = 0; i < joint.getNumDofs(); ++i)
+    any |= joint.getCoulombFriction(i) != 0.0;
+  return any;
+}
+
 } // namespace
+
+bool may_have_constraints(const Skeleton& skeleton)
+{
+  const auto& joints = skeleton.getJoints();
+  return std::any_of(joints.begin(), joints.end(), [](const auto* joint) { return may_have_constraints(*joint); });
+}
 
 void FastConstraintSolver::solve_by_sweeps(const Step& step)
 {
@@ -88,13 +103,7 @@ const std::vector<native::Touch>* FastConstraintSolver::find_contacts(const Step
 /// The engine's updateConstraints() without its contact constraints.
 void FastConstraintSolver::gather(const Step& step)
 {
-  mActiveConstraints.clear();
-  mContactConstraints.clear();
-  mSoftContactConstraints.clear();
-  mJointConstraints.clear();
-  mMimicMotorConstraints.clear();
-  mJointCoulombFrictionConstraints.clear();
-  mConstrainedGroups.clear();
+  clear_constraints();
   const auto take = [this](const ConstraintBasePtr& constraint) {
     constraint->update();
     scale_error(*constraint);

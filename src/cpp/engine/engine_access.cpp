@@ -273,6 +273,15 @@ void read_rows(const ConstraintBase& constraint, Rows& rows)
   }
 }
 
+void begin_contact(Rows& rows)
+{
+  rows.kind = Rows::Kind::bodies;
+  rows.bodies.orders = contact_orders;
+  rows.bodies.slip = {0.0, 0.0};
+  rows.bodies.points = {};
+  rows.force_mixing = ContactConstraint::getConstraintForceMixing();
+}
+
 const dart::collision::Contact* contact(const ConstraintBase& constraint)
 {
   if (typeid(constraint) != typeid(ContactConstraint))

@@ -51,6 +51,9 @@ struct Rows
 /// The rows of a constraint; unknown for classes that are not listed above and for classes derived from them.
 void read_rows(const dart::constraint::ConstraintBase& constraint, Rows& rows);
 
+/// Begins the rows of a contact between rigid bodies that has no constraint.
+void begin_contact(Rows& rows);
+
 /// The contact of a contact constraint between rigid bodies, null for other constraints.
 const dart::collision::Contact* contact(const dart::constraint::ConstraintBase& constraint);
 

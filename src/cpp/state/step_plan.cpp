@@ -25,25 +25,15 @@ bool is_free(const WorldRecord& world, const SkeletonRecord& item)
          && std::none_of(world.constraints.begin(), world.constraints.end(), holds);
 }
 
-/// Limits, servos, mimics and dry friction.
-bool may_have_constraints(const dart::dynamics::Joint& joint)
+void find_kinds(const WorldRecord& world, StepPlan& plan)
 {
-  using dart::dynamics::Joint;
-  const auto actuator = joint.getActuatorType();
-  bool any = joint.areLimitsEnforced() || actuator == Joint::SERVO || actuator == Joint::MIMIC;
-  for (std::size_t i = 0; i < joint.getNumDofs(); ++i)
-    any |= joint.getCoulombFriction(i) != 0.0;
-  return any;
-}
-
-void find_jointed(StepPlan& plan)
-{
+  plan.rigid = std::none_of(world.skeletons.begin(), world.skeletons.end(), [](const auto& item) {
+    return item->skeleton->getNumSoftBodyNodes() > 0;
+  });
   plan.jointed.clear();
-  for (const auto& skeleton : plan.other_skeletons) {
-    const auto& joints = skeleton->getJoints();
-    if (std::any_of(joints.begin(), joints.end(), [](const auto* joint) { return may_have_constraints(*joint); }))
+  for (const auto& skeleton : plan.other_skeletons)
+    if (may_have_constraints(*skeleton))
       plan.jointed.push_back(skeleton);
-  }
 }
 
 void make_anew(WorldRecord& world)
@@ -98,7 +88,7 @@ StepPlan& make_plan(WorldRecord& world)
   if (plan.stale)
     make_anew(world);
   if (!plan.same)
-    find_jointed(plan);
+    find_kinds(world, plan);
   plan.begun = 0;
   return plan;
 }
@@ -112,7 +102,7 @@ void plan_through_engine(WorldRecord& world)
   plan.others = world.skeletons;
   for (const auto& item : world.skeletons)
     plan.other_skeletons.push_back(item->skeleton);
-  find_jointed(plan);
+  find_kinds(world, plan);
 }
 
 } // namespace pydart2

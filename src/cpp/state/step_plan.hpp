@@ -19,6 +19,7 @@ struct StepPlan
   std::vector<std::shared_ptr<SkeletonRecord>> others;
   std::vector<dart::dynamics::SkeletonPtr> other_skeletons;
   std::vector<dart::dynamics::SkeletonPtr> jointed; ///< Of them those with joints that may have constraints of their own.
+  bool rigid = true;     ///< No skeleton has a soft body.
   std::size_t begun = 0; ///< How many of the others are in this step, and have saved their states.
 
   bool stale = true;                    ///< Someone came, went, fell asleep or woke, or the world has changed.

@@ -133,7 +133,7 @@ void solve(WorldRecord& record, double end)
       group->set_asleep(record.sleep.asleep, record.sleep.version);
     return skeletons;
   };
-  FastConstraintSolver::Step step{plan.other_skeletons, plan.jointed, &plan.free, plan.same, nullptr};
+  FastConstraintSolver::Step step{plan.other_skeletons, plan.jointed, plan.rigid, &plan.free, plan.same, nullptr};
   if (!record.sleep.asleep.empty())
     step.wake = wake;
   solver.solve_step(step);
