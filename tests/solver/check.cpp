@@ -177,7 +177,7 @@ public:
 private:
   void solve()
   {
-    std::vector<dart::dynamics::SkeletonPtr> skeletons, jointed;
+    std::vector<dart::dynamics::SkeletonPtr> skeletons;
     bool rigid = true;
     for (std::size_t i = 0; i < world_.getNumSkeletons(); ++i) {
       const auto skeleton = world_.getSkeleton(i);
@@ -185,9 +185,9 @@ private:
       skeleton->setImpulseApplied(false);
       rigid &= skeleton->getNumSoftBodyNodes() == 0;
       skeletons.push_back(skeleton);
-      if (pydart2::may_have_constraints(*skeleton))
-        jointed.push_back(skeleton);
     }
+    pydart2::Jointed jointed;
+    jointed.look_at(skeletons);
     pydart2::FreeBodies free;
     pydart2::fast_solver(world_).solve_step({skeletons, jointed, rigid, &free, false, nullptr});
   }

@@ -44,3 +44,39 @@ def test_surfaces(detector: str) -> None:
         assert_array_equal(ours.collision_result.rows, engine.collision_result.rows)
         contacts += len(ours.collision_result.rows)
     assert contacts > 3_000
+
+
+def crowd(solver: str, detector: str, seed: int) -> World:
+    """Jointed boxes with dry friction that are pushed together: contacts join trees of them, so that the engine has some in
+    two groups."""
+    world = World(0.001)
+    world.set_collision_detector(detector)
+    world.set_constraint_solver(solver)
+    world.add_ground()
+    random = np.random.default_rng(seed)
+    for i, place in enumerate(random.permutation(8)):
+        skel = world.add_empty_skeleton(f"crowd {i}")
+        skel.add_body("base", joint="free").add_box((0.2, 0.2, 0.2), density=100.0)
+        skel.add_body("arm", "base", "revolute", position=(0, 0.2, 0)).add_box((0.1, 0.1, 0.1), density=100.0)
+        skel.dofs[6].set_coulomb_friction(0.05)
+        skel.dofs[6].set_position_lower_limit(-0.01)
+        skel.dofs[6].set_position_upper_limit(0.01)
+        skel.joints[1].set_position_limit_enforced(i % 2 == 0)
+        q = skel.q
+        q[3:6] = 0.199 * place, 0.0995, 0.01 * random.normal()
+        skel.q = q
+    return world
+
+
+@pytest.mark.parametrize("detector", ["fcl", "bullet", "ode", "dart"])
+def test_joints(detector: str) -> None:
+    """Rows of joints beside those of contacts, also where the engine has a skeleton in two groups."""
+    for seed in range(2):
+        ours, engine = crowd("fast", detector, seed), crowd("dart", detector, seed)
+        for _ in range(50):
+            for world in (ours, engine):
+                world.step()
+                world.collision_result.update()
+            assert_array_equal(ours.states(), engine.states())
+            assert_array_equal(ours.collision_result.rows, engine.collision_result.rows)
+        assert len(ours.collision_result.rows) > 20

@@ -1,48 +1,70 @@
 #include "contact/fast_solver.hpp"
 
-/// What the exact solver does where there are contacts of rigid bodies only: most of the time.
+/// What the exact solver does where there are contacts of rigid bodies and joints only: most of the time.
 namespace pydart2 {
 
-/// As solve_exactly() the groups of the engine's constraints.
-void FastConstraintSolver::solve_contacts()
+void FastConstraintSolver::solve_contacts(const Step& step)
 {
   contacts_.read(mCollisionResult);
-  const auto& groups = contacts_.groups();
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    matrix_.clear();
-    rows_.clear();
-    for (const int contact : groups[i]) {
-      const auto begin = rows_.size();
-      const int dimension = contacts_.dimension(contact);
-      rows_.resize(begin + static_cast<std::size_t>(dimension));
-      contacts_.read_rows(contact, matrix_.add_rows(dimension), mTimeStep, rows_.data() + begin);
-    }
-    largest_group_ = std::max(largest_group_, static_cast<int>(rows_.size()));
-    check_memory(rows_.size());
-    matrix_.settle();
-    const auto size = static_cast<Eigen::Index>(rows_.size());
-    mX.setZero(size);
-    mB.resize(size);
-    mLo.resize(size);
-    mHi.resize(size);
-    mFIndex.resize(size);
-    int first = 0;
-    for (Eigen::Index row = 0; row < size; ++row) {
-      const auto& from = rows_[static_cast<std::size_t>(row)];
-      first = from.friction ? first : static_cast<int>(row);
-      mB[row] = from.b;
-      mLo[row] = from.lo;
-      mHi[row] = from.hi;
-      mFIndex[row] = from.friction ? first : -1;
-    }
-    solve_rows(nullptr, i);
-    const double* impulses = mX.data();
-    for (std::size_t k = 0; k < groups[i].size(); ++k) {
-      contacts_.store_force(groups[i][k], impulses, mTimeStep);
-      matrix_.apply(k, impulses);
-      impulses += contacts_.dimension(groups[i][k]);
-    }
+  for (const auto& constraint : step.jointed.make_constraints()) {
+    constraint->update();
+    if (constraint->isActive())
+      mActiveConstraints.push_back(constraint);
   }
+  if (contacts_.group_with(mActiveConstraints)) {
+    for (std::size_t i = 0; i < contacts_.groups().size(); ++i)
+      solve_group(i);
+    return;
+  }
+  DirectContacts::Constraints contacts;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    contacts.push_back(contacts_.make_constraint(i, mTimeStep));
+  mActiveConstraints.insert(mActiveConstraints.begin(), contacts.begin(), contacts.end());
+  solve_active();
+}
+
+/// As solve_exactly() the groups of the engine's constraints.
+void FastConstraintSolver::solve_group(std::size_t number)
+{
+  const auto& members = contacts_.groups()[number];
+  const auto count = contacts_.size();
+  const auto dimension = [&](std::size_t member) {
+    return member < count ? contacts_.dimension(member) : mActiveConstraints[member - count]->getDimension();
+  };
+  std::size_t rows = 0;
+  for (const auto member : members)
+    rows += dimension(member);
+  if (rows == 0)
+    return;
+  begin_group(rows);
+  matrix_.clear();
+  int row = 0;
+  for (const auto member : members) {
+    const int end = row + static_cast<int>(dimension(member));
+    auto& at = matrix_.add_rows(end - row);
+    auto terms = terms_at(row);
+    if (member < count) {
+      contacts_.read_rows(member, at, mTimeStep, terms);
+    } else {
+      auto& constraint = *mActiveConstraints[member - count];
+      engine::read_rows(constraint, at);
+      constraint.getInformation(&terms);
+    }
+    count_from(row, end);
+    row = end;
+  }
+  matrix_.settle();
+  solve_rows(nullptr, number);
+  double* impulses = mX.data();
+  for (std::size_t i = 0; i < members.size(); impulses += dimension(members[i]), ++i)
+    if (members[i] < count) {
+      contacts_.store_force(members[i], impulses, mTimeStep);
+      matrix_.apply(i, impulses);
+    } else {
+      auto& constraint = *mActiveConstraints[members[i] - count];
+      constraint.applyImpulse(impulses);
+      constraint.excite();
+    }
 }
 
 } // namespace pydart2

@@ -121,10 +121,11 @@ void share_slip(std::vector<ContactTerms>& contacts)
   const auto slips = [](const ContactTerms& contact) { return contact.slip[0] > 0.0 || contact.slip[1] > 0.0; };
   if (std::none_of(contacts.begin(), contacts.end(), slips))
     return;
+  using Pair = std::pair<dart::collision::CollisionObject*, dart::collision::CollisionObject*>;
   const auto key = [](const ContactTerms& contact) {
-    return std::pair(contact.contact->collisionObject1, contact.contact->collisionObject2);
+    return Pair(std::minmax(contact.contact->collisionObject1, contact.contact->collisionObject2));
   };
-  std::map<std::pair<dart::collision::CollisionObject*, dart::collision::CollisionObject*>, int> counts; // looked up only
+  std::map<Pair, int> counts; // looked up only
   for (const auto& contact : contacts)
     ++counts[key(contact)];
   for (auto& contact : contacts)

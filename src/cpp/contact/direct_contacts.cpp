@@ -47,7 +47,7 @@ void DirectContacts::read(dart::collision::CollisionResult& result)
   terms_.clear();
   contacts_.clear();
   bodies_.clear();
-  united_.clear();
+  forest_.clear();
   for (std::size_t i = 0; i < result.getNumContacts(); ++i)
     if (auto& contact = result.getContact(i); !(contact.penetrationDepth < 0.0) && !Contact::isZeroNormal(contact.normal))
       terms_.push_back(reader_.read(contact, nullptr));
@@ -57,48 +57,50 @@ void DirectContacts::read(dart::collision::CollisionResult& result)
     if (a.reactive || b.reactive)
       contacts_.push_back({terms, {&a, &b}, {}});
     if (a.reactive && b.reactive)
-      united_[root(b.skeleton)] = root(a.skeleton);
+      forest_.join(a.skeleton, b.skeleton);
   }
 }
 
 const DirectContacts::Body& DirectContacts::look_at(const BodyNode& body)
 {
   const auto [known, is_new] = bodies_.try_emplace(&body);
-  if (is_new) {
+  if (is_new)
     known->second = {body.isReactive(), body.getSkeleton().get(), body.getWorldTransform().inverse()};
-    united_.emplace(known->second.skeleton, known->second.skeleton);
-  }
   return known->second;
 }
 
-const Skeleton* DirectContacts::root(const Skeleton* skeleton)
+bool DirectContacts::group_with(const Constraints& constraints)
 {
-  while (united_.at(skeleton) != skeleton)
-    skeleton = united_.at(skeleton);
-  return skeleton;
-}
-
-const std::vector<std::vector<int>>& DirectContacts::groups()
-{
-  std::unordered_map<const Skeleton*, std::size_t> numbers;
-  groups_.clear();
-  for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
-    const auto& bodies = at(i).bodies;
-    const auto* skeleton = root((bodies[0]->reactive ? bodies[0] : bodies[1])->skeleton);
-    const auto [number, is_new] = numbers.emplace(skeleton, groups_.size());
-    if (is_new)
+  numbers_.clear();
+  std::size_t entry = 0;
+  const auto add = [&](const Skeleton* root) {
+    const std::size_t group = numbers_.try_emplace(root, numbers_.size()).first->second;
+    if (group == groups_.size())
       groups_.emplace_back();
-    groups_[number->second].push_back(i);
+    groups_[group].push_back(entry++);
+  };
+  for (auto& members : groups_)
+    members.clear();
+  for (const auto& contact : contacts_)
+    add(forest_.root(contact.bodies[contact.bodies[0]->reactive ? 0 : 1]->skeleton));
+  for (const auto& constraint : constraints) {
+    const auto* skeleton = constraint->getRootSkeleton().get();
+    const auto* root = forest_.root(skeleton);
+    if (forest_.above(skeleton) != root)
+      return false;
+    add(root);
   }
-  return groups_;
+  groups_.resize(numbers_.size());
+  return true;
 }
 
-void DirectContacts::read_rows(int number, engine::Rows& rows, double time_step, Row* out)
+void DirectContacts::read_rows(
+    std::size_t number, engine::Rows& rows, double time_step, const dart::constraint::ConstraintInfo& info)
 {
-  auto& entry = at(number);
+  auto& entry = contacts_[number];
   const auto& terms = entry.terms;
   const auto& contact = *terms.contact;
-  const int dimension = this->dimension(number);
+  const int dimension = static_cast<int>(this->dimension(number));
   engine::begin_contact(rows);
   auto& bodies = rows.bodies;
   bodies.bodies = terms.bodies;
@@ -119,23 +121,36 @@ void DirectContacts::read_rows(int number, engine::Rows& rows, double time_step,
   }
   for (int row = 0; row < dimension; ++row) {
     const double friction = row == 0 ? 0.0 : terms.friction[static_cast<std::size_t>(2 - row)];
-    out[row] = {0.0, -friction, row == 0 ? std::numeric_limits<double>::infinity() : friction, row > 0};
+    info.lo[row] = -friction;
+    info.hi[row] = friction;
+    info.findex[row] = row == 0 ? -1 : 0;
+    info.b[row] = 0.0;
     for (const std::size_t side : {0, 1})
-      out[row].b -= bodies.directions[side].col(row).dot(terms.bodies[side]->getSpatialVelocity());
+      info.b[row] -= bodies.directions[side].col(row).dot(terms.bodies[side]->getSpatialVelocity());
   }
-  out[0].lo = 0.0;
-  out[0].b = parting_speed(terms, out[0].b, engine_correction(terms.depth, time_step));
+  info.lo[0] = 0.0;
+  info.hi[0] = std::numeric_limits<double>::infinity();
+  info.b[0] = parting_speed(terms, info.b[0], engine_correction(terms.depth, time_step));
 }
 
-void DirectContacts::store_force(int number, const double* impulses, double time_step) const
+void DirectContacts::store_force(std::size_t number, const double* impulses, double time_step) const
 {
-  const auto& entry = at(number);
+  const auto& entry = contacts_[number];
   auto& contact = *entry.terms.contact;
   contact.force = contact.normal * impulses[0] / time_step;
   if (!entry.terms.has_friction())
     return;
   contact.force += entry.tangents.col(0) * impulses[1] / time_step;
   contact.force += entry.tangents.col(1) * impulses[2] / time_step;
+}
+
+dart::constraint::ConstraintBasePtr DirectContacts::make_constraint(std::size_t number, double time_step) const
+{
+  const auto& terms = contacts_[number].terms;
+  dart::constraint::ConstraintBasePtr made = std::make_shared<ContactConstraint>(*terms.contact, time_step);
+  engine::set_slip(*made, {terms.slip[1], terms.slip[0]});
+  made->update();
+  return made;
 }
 
 } // namespace pydart2

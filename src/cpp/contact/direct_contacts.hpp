@@ -1,10 +1,12 @@
 #pragma once
 
 #include <dart/collision/CollisionResult.hpp>
+#include <dart/constraint/ConstraintBase.hpp>
 #include <unordered_map>
 #include <vector>
 
 #include "contact/contact_terms.hpp"
+#include "contact/skeleton_forest.hpp"
 #include "engine/engine_access.hpp"
 
 namespace pydart2 {
@@ -14,25 +16,28 @@ namespace pydart2 {
 class DirectContacts
 {
 public:
-  struct Row
-  {
-    double b, lo, hi;
-    bool friction; ///< Its bounds are parts of the impulse of the contact's first row.
-  };
+  using Constraints = std::vector<dart::constraint::ConstraintBasePtr>;
 
   /// Reads those that the engine makes constraints of: shapes touch, and an impulse can move one of the bodies.
   void read(dart::collision::CollisionResult& result);
 
-  /// Of bodies that touch, in the order of their first contacts; each has the numbers of its contacts.
-  const std::vector<std::vector<int>>& groups();
+  /// Groups them, by what touches, with constraints of joints; false where the engine has a skeleton in two groups.
+  bool group_with(const Constraints& constraints);
 
-  int dimension(int contact) const { return at(contact).terms.has_friction() ? 3 : 1; }
+  /// In the order of their first members; each has the numbers of its contacts and, counted on, of its constraints.
+  const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
+
+  std::size_t size() const { return contacts_.size(); }
+  std::size_t dimension(std::size_t contact) const { return contacts_[contact].terms.has_friction() ? 3 : 1; }
 
   /// Where impulses of a contact's rows act, and what these rows say.
-  void read_rows(int contact, engine::Rows& rows, double time_step, Row* out);
+  void read_rows(std::size_t contact, engine::Rows& rows, double time_step, const dart::constraint::ConstraintInfo& info);
 
   /// Stores the force that goes with a contact's impulses in it.
-  void store_force(int contact, const double* impulses, double time_step) const;
+  void store_force(std::size_t contact, const double* impulses, double time_step) const;
+
+  /// The engine's constraint in place of a contact.
+  dart::constraint::ConstraintBasePtr make_constraint(std::size_t contact, double time_step) const;
 
 private:
   struct Body
@@ -49,17 +54,15 @@ private:
     Eigen::Matrix<double, 3, 2> tangents;
   };
 
-  Entry& at(int contact) { return contacts_[static_cast<std::size_t>(contact)]; }
-  const Entry& at(int contact) const { return contacts_[static_cast<std::size_t>(contact)]; }
   const Body& look_at(const dart::dynamics::BodyNode& body);
-  const dart::dynamics::Skeleton* root(const dart::dynamics::Skeleton* skeleton);
 
   ContactReader reader_;
   std::vector<ContactTerms> terms_;
   std::vector<Entry> contacts_;
   std::unordered_map<const dart::dynamics::BodyNode*, Body> bodies_;
-  std::unordered_map<const dart::dynamics::Skeleton*, const dart::dynamics::Skeleton*> united_;
-  std::vector<std::vector<int>> groups_;
+  SkeletonForest forest_;
+  std::unordered_map<const dart::dynamics::Skeleton*, std::size_t> numbers_; ///< Of the groups, by their roots.
+  std::vector<std::vector<std::size_t>> groups_;
 };
 
 } // namespace pydart2

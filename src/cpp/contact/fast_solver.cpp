@@ -113,18 +113,22 @@ void FastConstraintSolver::solve_step(const Step& step)
 /// The engine's solve(), with what wakes, and without flags of colliding bodies that nobody reads.
 void FastConstraintSolver::solve_by_groups(const Step& step)
 {
-  const bool only_contacts = step.rigid && step.jointed.empty() && mManualConstraints.empty();
-  if (only_contacts && solver_ == Solver::fast && !contact_reduction_) {
+  if (step.rigid && mManualConstraints.empty() && solver_ == Solver::fast && !contact_reduction_) {
     clear_constraints();
     mCollisionResult.clear();
     mCollisionGroup->collide(mCollisionOption, &mCollisionResult);
     if (!wake(step))
-      return solve_contacts();
+      return solve_contacts(step);
     updateConstraints();
   } else {
     find_constraints(step);
   }
   drop_fixed_skins(*this);
+  solve_active();
+}
+
+void FastConstraintSolver::solve_active()
+{
   buildConstrainedGroups();
   solveConstrainedGroups();
 }
@@ -143,7 +147,7 @@ void FastConstraintSolver::clear_constraints()
 void FastConstraintSolver::find_constraints(const Step& step)
 {
   {
-    const Exchange skeletons(mSkeletons, step.jointed); // which the engine asks for constraints of their joints
+    const Exchange skeletons(mSkeletons, step.jointed.skeletons); // which the engine asks for constraints of their joints
     updateConstraints();
   }
   if (wake(step))
@@ -234,8 +238,7 @@ void FastConstraintSolver::solve_exactly(ConstrainedGroup& group)
 {
   for (std::size_t i = 0; i < group.getNumConstraints(); ++i)
     scale_error(*group.getConstraint(i));
-  largest_group_ = std::max(largest_group_, static_cast<int>(group.getTotalDimension()));
-  check_memory(group.getTotalDimension());
+  begin_group(group.getTotalDimension());
   if (solver_ == Solver::dart || shared_) {
     remove_empty_constraints(group);
     BoxedLcpConstraintSolver::solveConstrainedGroup(group);
@@ -245,10 +248,17 @@ void FastConstraintSolver::solve_exactly(ConstrainedGroup& group)
     }
     return;
   }
-  const auto size = static_cast<Eigen::Index>(group.getTotalDimension());
-  if (size == 0)
+  if (group.getTotalDimension() == 0)
     return;
-  read_terms(group);
+  int row = 0;
+  for (std::size_t i = 0; i < group.getNumConstraints(); ++i) {
+    const auto constraint = group.getConstraint(i);
+    const int end = row + static_cast<int>(constraint->getDimension());
+    auto terms = terms_at(row);
+    constraint->getInformation(&terms);
+    count_from(row, end);
+    row = end;
+  }
   matrix_.read(group, mSkeletons);
   solve_rows(&group, static_cast<std::size_t>(&group - mConstrainedGroups.data()));
   matrix_.apply(group, mTimeStep, mX);
@@ -262,6 +272,41 @@ void FastConstraintSolver::solve_rows(ConstrainedGroup* group, std::size_t numbe
   problem_.keep(mA, mB, mLo, mHi, mFIndex);
   solve_lcp(number);
   take_residual(mX);
+}
+
+/// For all but A: bounds, right-hand sides, and for friction the row of the normal force.
+void FastConstraintSolver::begin_group(std::size_t rows)
+{
+  largest_group_ = std::max(largest_group_, static_cast<int>(rows));
+  check_memory(rows);
+  const auto size = static_cast<Eigen::Index>(rows);
+  mX.setZero(size);
+  mB.resize(size);
+  mW.setZero(size);
+  mLo.resize(size);
+  mHi.resize(size);
+  mFIndex.setConstant(size, -1);
+}
+
+dart::constraint::ConstraintInfo FastConstraintSolver::terms_at(int row)
+{
+  dart::constraint::ConstraintInfo terms;
+  terms.invTimeStep = 1.0 / mTimeStep;
+  terms.x = mX.data() + row;
+  terms.lo = mLo.data() + row;
+  terms.hi = mHi.data() + row;
+  terms.b = mB.data() + row;
+  terms.findex = mFIndex.data() + row;
+  terms.w = mW.data() + row;
+  return terms;
+}
+
+/// Constraints count their rows from 0.
+void FastConstraintSolver::count_from(int begin, int end)
+{
+  for (int row = begin; row < end; ++row)
+    if (mFIndex[row] >= 0)
+      mFIndex[row] += begin;
 }
 
 /// The solvers keep the matrix twice, the second time to begin anew from.
@@ -297,38 +342,6 @@ bool FastConstraintSolver::groups_share_skeletons()
       }
   }
   return shared;
-}
-
-/// All but A: bounds, right-hand sides, and for friction the row of the normal force.
-void FastConstraintSolver::read_terms(ConstrainedGroup& group)
-{
-  const auto size = static_cast<Eigen::Index>(group.getTotalDimension());
-  const auto count = static_cast<Eigen::Index>(group.getNumConstraints());
-  mX.resize(size);
-  mB.resize(size);
-  mW.setZero(size);
-  mLo.resize(size);
-  mHi.resize(size);
-  mFIndex.setConstant(size, -1);
-  mOffset.resize(count);
-  int row = 0;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto constraint = group.getConstraint(static_cast<std::size_t>(i));
-    const int end = row + static_cast<int>(constraint->getDimension());
-    mOffset[i] = row;
-    dart::constraint::ConstraintInfo info;
-    info.invTimeStep = 1.0 / mTimeStep;
-    info.x = mX.data() + row;
-    info.lo = mLo.data() + row;
-    info.hi = mHi.data() + row;
-    info.b = mB.data() + row;
-    info.findex = mFIndex.data() + row;
-    info.w = mW.data() + row;
-    constraint->getInformation(&info);
-    for (const int begin = row; row < end; ++row)
-      if (mFIndex[row] >= 0)
-        mFIndex[row] += begin;
-  }
 }
 
 void FastConstraintSolver::solve_lcp(std::size_t group)

@@ -13,6 +13,7 @@
 #include "contact/direct_contacts.hpp"
 #include "contact/exact_residual.hpp"
 #include "contact/iterative_solver.hpp"
+#include "contact/jointed.hpp"
 #include "contact/warm_lcp.hpp"
 
 namespace pydart2 {
@@ -50,7 +51,7 @@ public:
   struct Step
   {
     std::vector<dart::dynamics::SkeletonPtr>& skeletons; ///< That are awake, without those in `free`; no impulse acts on them.
-    std::vector<dart::dynamics::SkeletonPtr>& jointed;   ///< Of them those with joints that may have rows.
+    Jointed& jointed; ///< Of them.
     bool rigid; ///< No skeleton has a soft body.
     FreeBodies* free;
     bool same; ///< No skeleton has changed since the step before but for its state.
@@ -96,7 +97,9 @@ private:
   bool nothing_collides() const;
   void solve_by_groups(const Step& step);
   void clear_constraints();
-  void solve_contacts();
+  void solve_contacts(const Step& step);
+  void solve_group(std::size_t number);
+  void solve_active();
   void find_constraints(const Step& step);
   bool wake(const Step& step);
   void solve_by_sweeps(const Step& step);
@@ -104,14 +107,15 @@ private:
   void drop_gaps();
   void gather(const Step& step);
   void gather_from_groups(const Step& step);
-  void add_joint_constraints(const dart::dynamics::Skeleton& skeleton);
   bool all_known() const;
   void scale_error(dart::constraint::ConstraintBase& constraint) const;
   void solve_exactly(dart::constraint::ConstrainedGroup& group);
   void take_residual(const Eigen::VectorXd& x) { exact_residual_ = std::max(exact_residual_, problem_.of(x)); }
   bool groups_share_skeletons();
   void check_memory(std::size_t rows) const;
-  void read_terms(dart::constraint::ConstrainedGroup& group);
+  void begin_group(std::size_t rows);
+  dart::constraint::ConstraintInfo terms_at(int row);
+  void count_from(int begin, int end);
   void solve_rows(dart::constraint::ConstrainedGroup* group, std::size_t number);
   void solve_lcp(std::size_t group);
   void solve_lcp_again();
@@ -125,7 +129,6 @@ private:
   bool shared_ = false; ///< Of the present step: some skeleton is in two groups.
   ConstraintMatrix matrix_;
   DirectContacts contacts_;
-  std::vector<DirectContacts::Row> rows_;
   DantzigLcp dantzig_lcp_;
   IterativeSolver iterative_;
   WarmLcp warm_lcp_;
@@ -140,9 +143,6 @@ constexpr std::size_t unlimited_contacts = std::numeric_limits<int>::max();
 /// Gives a world such a solver. Its collision detector, contacts, constraints and LCP solvers stay as they are, and so
 /// does the order of its contacts.
 void install_solver(dart::simulation::World& world, Solver solver);
-
-/// Whether joints of a skeleton may have rows: of limits, servos, mimics and dry friction.
-bool may_have_constraints(const dart::dynamics::Skeleton& skeleton);
 
 /// The solver that install_solver() gave.
 FastConstraintSolver& fast_solver(const dart::simulation::World& world);

@@ -1,8 +1,5 @@
 #include <algorithm>
 #include <dart/constraint/ContactConstraint.hpp>
-#include <dart/constraint/JointConstraint.hpp>
-#include <dart/constraint/JointCoulombFrictionConstraint.hpp>
-#include <dart/constraint/MimicMotorConstraint.hpp>
 
 #include "collision/native_detector.hpp"
 #include "contact/contact_reduction.hpp"
@@ -19,7 +16,6 @@ namespace {
 using dart::collision::Contact;
 using dart::constraint::ConstrainedGroup;
 using dart::constraint::ConstraintBasePtr;
-using dart::dynamics::Joint;
 using dart::dynamics::Skeleton;
 
 bool soft(const Skeleton& skeleton)
@@ -39,22 +35,7 @@ bool has_soft_body(const ConstraintBasePtr& constraint)
   });
 }
 
-bool may_have_constraints(const Joint& joint)
-{
-  const auto actuator = joint.getActuatorType();
-  bool any = joint.areLimitsEnforced() || actuator == Joint::SERVO || actuator == Joint::MIMIC;
-  for (std::size_t i = 0; i < joint.getNumDofs(); ++i)
-    any |= joint.getCoulombFriction(i) != 0.0;
-  return any;
-}
-
 } // namespace
-
-bool may_have_constraints(const Skeleton& skeleton)
-{
-  const auto& joints = skeleton.getJoints();
-  return std::any_of(joints.begin(), joints.end(), [](const auto* joint) { return may_have_constraints(*joint); });
-}
 
 void FastConstraintSolver::solve_by_sweeps(const Step& step)
 {
@@ -120,31 +101,10 @@ void FastConstraintSolver::gather(const Step& step)
     if (auto& contact = mCollisionResult.getContact(i);
         !Contact::isZeroNormal(contact.normal) && (touches != nullptr || contact.penetrationDepth >= 0.0))
       iterative_.add(contact, touches == nullptr ? nullptr : &(*touches)[i]);
-  for (const auto& skeleton : woken ? mSkeletons : step.jointed)
-    add_joint_constraints(*skeleton);
-  std::for_each(mJointConstraints.begin(), mJointConstraints.end(), take);
-  std::for_each(mMimicMotorConstraints.begin(), mMimicMotorConstraints.end(), take);
-  std::for_each(mJointCoulombFrictionConstraints.begin(), mJointCoulombFrictionConstraints.end(), take);
-}
-
-void FastConstraintSolver::add_joint_constraints(const Skeleton& skeleton)
-{
-  for (std::size_t i = 0; i < skeleton.getNumJoints(); ++i) {
-    auto* joint = const_cast<Joint*>(skeleton.getJoint(i));
-    if (joint->isKinematic())
-      continue;
-    for (std::size_t dof = 0; dof < joint->getNumDofs(); ++dof)
-      if (joint->getCoulombFriction(dof) != 0.0) {
-        mJointCoulombFrictionConstraints.push_back(
-            std::make_shared<dart::constraint::JointCoulombFrictionConstraint>(joint));
-        break;
-      }
-    if (joint->areLimitsEnforced() || joint->getActuatorType() == Joint::SERVO)
-      mJointConstraints.push_back(std::make_shared<dart::constraint::JointConstraint>(joint));
-    if (joint->getActuatorType() == Joint::MIMIC && joint->getMimicJoint() != nullptr)
-      mMimicMotorConstraints.push_back(std::make_shared<dart::constraint::MimicMotorConstraint>(
-          joint, joint->getMimicJoint(), joint->getMimicMultiplier(), joint->getMimicOffset()));
-  }
+  if (woken)
+    step.jointed.look_at(mSkeletons);
+  for (const auto& constraint : step.jointed.make_constraints())
+    take(constraint);
 }
 
 /// With the engine's constraints and groups, of which those with soft bodies or constraints of unknown kinds are solved

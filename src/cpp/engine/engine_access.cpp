@@ -200,6 +200,13 @@ void scale_error(ConstraintBase& constraint, double factor)
     distance->scale_error(factor);
 }
 
+void set_slip(ConstraintBase& constraint, const std::array<double, 2>& slip)
+{
+  auto& contact = dynamic_cast<ContactConstraint&>(constraint);
+  contact.*member(PrimarySlip()) = slip[0];
+  contact.*member(SecondarySlip()) = slip[1];
+}
+
 void scale_slip(ConstraintBase& constraint, double factor)
 {
   auto& contact = dynamic_cast<ContactConstraint&>(constraint);

@@ -67,6 +67,9 @@ void set_target(dart::constraint::ConstraintBase& constraint, const Eigen::Isome
 /// Scales the error that a ball or weld joint or a distance constraint has found, and is about to reduce.
 void scale_error(dart::constraint::ConstraintBase& constraint, double factor);
 
+/// Sets the slip compliance of a contact's tangential rows.
+void set_slip(dart::constraint::ConstraintBase& contact, const std::array<double, 2>& slip);
+
 /// Scales the slip compliance of a contact, which the engine has multiplied by the number of contacts of its two shapes.
 void scale_slip(dart::constraint::ConstraintBase& constraint, double factor);
 

@@ -30,10 +30,7 @@ void find_kinds(const WorldRecord& world, StepPlan& plan)
   plan.rigid = std::none_of(world.skeletons.begin(), world.skeletons.end(), [](const auto& item) {
     return item->skeleton->getNumSoftBodyNodes() > 0;
   });
-  plan.jointed.clear();
-  for (const auto& skeleton : plan.other_skeletons)
-    if (may_have_constraints(*skeleton))
-      plan.jointed.push_back(skeleton);
+  plan.jointed.look_at(plan.other_skeletons);
 }
 
 void make_anew(WorldRecord& world)

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact/jointed.hpp"
 #include "dynamics/free_bodies.hpp"
 
 namespace pydart2 {
@@ -18,7 +19,7 @@ struct StepPlan
   std::vector<std::shared_ptr<SkeletonRecord>> owners; ///< Of each body in `free`.
   std::vector<std::shared_ptr<SkeletonRecord>> others;
   std::vector<dart::dynamics::SkeletonPtr> other_skeletons;
-  std::vector<dart::dynamics::SkeletonPtr> jointed; ///< Of them those with joints that may have constraints of their own.
+  Jointed jointed; ///< Of them.
   bool rigid = true;     ///< No skeleton has a soft body.
   std::size_t begun = 0; ///< How many of the others are in this step, and have saved their states.
 

@@ -1,0 +1,38 @@
+#include "contact/skeleton_forest.hpp"
+
+#include <utility>
+
+namespace pydart2 {
+
+void SkeletonForest::join(const Skeleton* a, const Skeleton* b)
+{
+  if (a == b)
+    return;
+  nodes_.try_emplace(a, Node{a, 1});
+  nodes_.try_emplace(b, Node{b, 1});
+  a = shorten(a);
+  b = shorten(b);
+  if (a == b)
+    return;
+  if (nodes_.at(a).size < nodes_.at(b).size)
+    std::swap(a, b);
+  nodes_.at(a).size += nodes_.at(b).size;
+  nodes_.at(b).above = a;
+}
+
+const SkeletonForest::Skeleton* SkeletonForest::root(const Skeleton* skeleton) const
+{
+  for (const Skeleton* next = above(skeleton); next != skeleton; next = above(skeleton))
+    skeleton = next;
+  return skeleton;
+}
+
+/// The root; each second node on the way is hung up one higher.
+const SkeletonForest::Skeleton* SkeletonForest::shorten(const Skeleton* skeleton)
+{
+  while (above(skeleton) != skeleton)
+    skeleton = nodes_.at(skeleton).above = above(above(skeleton));
+  return skeleton;
+}
+
+} // namespace pydart2
