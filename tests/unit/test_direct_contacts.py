@@ -47,7 +47,7 @@ def test_surfaces(detector: str) -> None:
 
 
 def crowd(solver: str, detector: str, seed: int) -> World:
-    """Jointed boxes with dry friction side by side: contacts join trees of them, and the engine has some in two groups."""
+    """Jointed boxes with dry friction side by side: trees of them join, and the engine has some in two groups."""
     world = World(0.001)
     world.set_collision_detector(detector)
     world.set_constraint_solver(solver)
