@@ -8,8 +8,8 @@ from pydart2.errors import NameNotFound
 from pydart2.simulation.part import WorldPart
 
 _ITERATIVE: dict[str, float | str] = {
-    "iterations": 40,
-    "tolerance": 1e-6,
+    "iterations": 28,
+    "tolerance": 3e-6,
     "friction": "pyramid",
     "stabilisation": "split",
     "error_reduction": 0.2,
@@ -106,8 +106,8 @@ class StepOptions(WorldPart):
         set_contact_reduction() on, the others switch them off. Its options (a TypeError for others):
 
         ========================== ======================================================================
-        `iterations` = 40          sweeps in a step, at most
-        `tolerance` = 1e-6         m/s, rad/s: the sweeps end when none changes a velocity by more
+        `iterations` = 28          sweeps in a step, at most
+        `tolerance` = 3e-6         m/s, rad/s: the sweeps end when none changes a velocity by more
         `friction` = "pyramid"     each of two tangents within mu times the normal force, so that along their
                                    diagonal it reaches sqrt(2) times that; "cone": both together; "engine": bounds
                                    from the normal forces without friction, which the engine takes

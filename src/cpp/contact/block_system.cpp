@@ -16,6 +16,7 @@ using Friction = IterativeOptions::Friction;
 constexpr int inner_sweeps = 10; // of one block's rows
 constexpr double rough = 1e-2; // m/s: a residual with which bodies visibly get into each other
 constexpr int newton_steps = 20;
+constexpr double quiet = 0.3; // of the tolerance: two bodies that changed less are not solved twice in a sweep
 
 } // namespace
 
@@ -110,11 +111,14 @@ void Sweeps::prepare(const Island& island)
 {
   for (int i = island.first; i < island.last; ++i) {
     auto& block = system_.blocks[static_cast<std::size_t>(i)];
-    with_view(block, [&block](auto& view) {
+    with_view(block, [this, &block](auto& view) {
       view.W.noalias() = view.Ja * view.Ya.transpose();
       if constexpr (std::decay_t<decltype(view)>::both)
         view.W.noalias() += view.Jb * view.Yb.transpose();
-      view.mixing += block.force_mixing * view.W.diagonal();
+      const typename std::decay_t<decltype(view)>::Vector mixed = block.force_mixing * view.W.diagonal();
+      if (block.contact && options_.split) // of what changes since the last step: what carries the same for long does not give way
+        view.b += mixed.cwiseProduct(view.x);
+      view.mixing += mixed;
       view.W.diagonal() += view.mixing;
       const double most = view.W.diagonal().maxCoeff();
       block.movable = most > 0.0;
@@ -193,14 +197,20 @@ int Sweeps::sweep(const Island& island)
   }
 }
 
-/// Each block once; the largest change of a velocity.
+/// Each block once, and once more where those of the same two bodies have not come to rest; the largest change of a velocity.
 double Sweeps::pass(const Island& island)
 {
   double change = 0.0;
-  for (int i = island.first; i < island.last; ++i)
-    change = std::max(change, with_view(system_.blocks[static_cast<std::size_t>(i)], [this](auto& view) {
-      return solve_block(view);
-    }));
+  const auto block = [this](int i) -> const Block& { return system_.blocks[static_cast<std::size_t>(i)]; };
+  for (int first = island.first, last; first < island.last; first = last) {
+    double most = 0.0;
+    for (last = first; last < island.last && block(last).joins_as(block(first)); ++last)
+      most = std::max(most, with_view(block(last), [this](auto& view) { return solve_block(view); }));
+    if (last > first + 1 && most > quiet * options_.tolerance)
+      for (int i = first; i < last; ++i)
+        with_view(block(i), [this](auto& view) { return solve_block(view); });
+    change = std::max(change, most);
+  }
   return change;
 }
 

@@ -24,6 +24,8 @@ struct BlockSystem
     double depth = 0.0; ///< m
     double force_mixing = 0.0; ///< What is added to W's diagonal, as a part of it.
 
+    bool joins_as(const Block& other) const { return starts == other.starts && sizes == other.sizes; }
+
     std::size_t numbers() const
     {
       return static_cast<std::size_t>(size * (2 * (sizes[0] + sizes[1]) + 2 * size));

@@ -13,8 +13,8 @@ struct IterativeOptions
     engine   ///< Each tangent within mu times what the normal impulse is without friction.
   };
 
-  int iterations = 40;         ///< Sweeps over all rows, at most.
-  double tolerance = 1e-6;     ///< m/s, rad/s: the residual at which the sweeps end.
+  int iterations = 28;         ///< Sweeps over all rows, at most.
+  double tolerance = 3e-6;     ///< m/s, rad/s: the residual at which the sweeps end.
   Friction friction = Friction::pyramid;
   bool split = true;           ///< Depth is taken away by moving bodies, not by velocities (else as the engine does).
   double error_reduction = 0.2; ///< The part of the depth that goes in a step.
