@@ -1,6 +1,7 @@
 #include "dynamics/bias_forces.hpp"
 
 #include <dart/dynamics/BodyNode.hpp>
+#include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/Joint.hpp>
 
 #include "engine/protected_members.hpp"
@@ -68,6 +69,17 @@ Eigen::VectorXd gravity_forces(const dart::dynamics::Skeleton& skeleton)
   if (skeleton.getNumSoftBodyNodes() == 0)
     return skeleton.getGravityForces();
   return skeleton.getCoriolisAndGravityForces() - skeleton.getCoriolisForces();
+}
+
+Eigen::VectorXd constraint_forces(const dart::dynamics::Skeleton& skeleton)
+{
+  Eigen::VectorXd forces(skeleton.getNumDofs());
+  for (std::size_t tree = 0; tree < skeleton.getNumTrees(); ++tree) {
+    const auto& of_tree = skeleton.getConstraintForces(tree);
+    for (const auto* dof : skeleton.getTreeDofs(tree))
+      forces[static_cast<long>(dof->getIndexInSkeleton())] = of_tree[static_cast<long>(dof->getIndexInTree())];
+  }
+  return forces;
 }
 
 } // namespace pydart2

@@ -38,4 +38,8 @@ private:
 /// The part of c that is gravity's. DART's own sum for skeletons with soft bodies has numbers that nobody ever set.
 Eigen::VectorXd gravity_forces(const dart::dynamics::Skeleton& skeleton);
 
+/// Of contacts, limits and constraints in the last step. DART's own sum for skeletons with several roots takes the first
+/// for all of them, and grows each time that it is asked for.
+Eigen::VectorXd constraint_forces(const dart::dynamics::Skeleton& skeleton);
+
 } // namespace pydart2

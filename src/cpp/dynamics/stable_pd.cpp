@@ -29,7 +29,7 @@ Eigen::VectorXd StablePd::others(double h)
 {
   const auto& skeleton = tree_.skeleton;
   const Eigen::VectorXd dq = skeleton.getVelocities();
-  return skeleton.getForces() + skeleton.getExternalForces() + skeleton.getConstraintForces() - bias_forces_.update(tree_)
+  return skeleton.getForces() + skeleton.getExternalForces() + constraint_forces(skeleton) - bias_forces_.update(tree_)
          - damping_.cwiseProduct(dq) - stiffness_.cwiseProduct(skeleton.getPositions() + h * dq - rest_);
 }
 

@@ -74,7 +74,7 @@ void SkeletonHandle::external_forces(Output& out) const
 
 void SkeletonHandle::constraint_forces(Output& into) const
 {
-  copy(skeleton().getConstraintForces(), into);
+  copy(pydart2::constraint_forces(skeleton()), into);
 }
 
 dart::dynamics::Skeleton& SkeletonHandle::with_mass() const
