@@ -1,5 +1,6 @@
 #include "collision/fcl_detector.hpp"
 
+#include <cstring>
 #include <dart/collision/fcl/FCLCollisionGroup.hpp>
 #include <dart/collision/fcl/FCLCollisionObject.hpp>
 #include <dart/dynamics/BoxShape.hpp>
@@ -228,6 +229,7 @@ public:
     mFCLCollisionObject = std::make_unique<dart::collision::fcl::CollisionObject>(geometry);
     mFCLCollisionObject->setUserData(this);
     is_skin_ = is_skin();
+    placed_ = false;
   }
 
 protected:
@@ -241,7 +243,12 @@ protected:
       move_skin(const_cast<Tree&>(static_cast<const Tree&>(geometry)), const_cast<SoftMeshShape&>(skin));
     }
     const auto& frame = *getShapeFrame();
-    mFCLCollisionObject->setTransform(frame.getParentFrame()->getWorldTransform() * frame.getRelativeTransform());
+    const Eigen::Isometry3d pose = frame.getParentFrame()->getWorldTransform() * frame.getRelativeTransform();
+    const auto& before = mFCLCollisionObject->getTransform().matrix();
+    if (!is_skin_ && placed_ && std::memcmp(pose.data(), before.data(), sizeof pose) == 0)
+      return;
+    placed_ = true;
+    mFCLCollisionObject->setTransform(pose);
     mFCLCollisionObject->computeAABB();
   }
 
@@ -249,6 +256,7 @@ private:
   bool is_skin() const { return dynamic_cast<const SoftMeshShape*>(getShape().get()) != nullptr; }
 
   bool is_skin_;
+  bool placed_ = false; ///< Where it was last asked to be, with its bounds there.
 };
 
 /// FCL balances a new tree at its first object, which moves on the place where the next balancing begins, and one that was

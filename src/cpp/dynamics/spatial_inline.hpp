@@ -24,7 +24,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 {
   Vector6 result;
   result.head<3>().noalias() = T.linear().transpose() * twist.head<3>();
-  result.tail<3>().noalias() = T.linear().transpose() * (twist.tail<3>() + twist.head<3>().cross(T.translation()));
+  const Eigen::Vector3d there = twist.tail<3>() + twist.head<3>().cross(T.translation());
+  result.tail<3>().noalias() = T.linear().transpose() * there;
   return result;
 }
 
@@ -61,6 +62,26 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
   result.matrix().col(1) = Eigen::Vector4d(b * xy - a * r[2], b * yy + cosine, b * yz + a * r[0], 0.0);
   result.matrix().col(2) = Eigen::Vector4d(b * zx + a * r[1], b * yz - a * r[0], b * zz + cosine, 0.0);
   return result;
+}
+
+/// The rotation by the vector r: dart::math::expMapRot.
+[[gnu::always_inline]] inline Eigen::Matrix3d rotation(const Eigen::Vector3d& r)
+{
+  using Matrix = Eigen::Matrix3d;
+  const double angle = r.norm();
+  Matrix S;
+  S << 0.0, -r[2], r[1], r[2], 0.0, -r[0], -r[1], r[0], 0.0;
+  const Matrix S2 = S * S;
+  if (angle < 1e-3)
+    return Matrix::Identity() + S + 0.5 * S2;
+  return Matrix::Identity() + (std::sin(angle) / angle) * S + ((1.0 - std::cos(angle)) / (angle * angle)) * S2;
+}
+
+/// The vector of a rotation: dart::math::logMap.
+[[gnu::always_inline]] inline Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R)
+{
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
 }
 
 /// R X R' for the rotation R of T, as a block of `result`. Columns of four numbers, the last of which counts for nothing,

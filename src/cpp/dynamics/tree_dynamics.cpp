@@ -1,5 +1,6 @@
 #include "dynamics/tree_dynamics.hpp"
 
+#include <algorithm>
 #include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/EulerJoint.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
@@ -66,7 +67,6 @@ bool TreeDynamics::add(BodyNode& body, Link* parent)
   if (typeid(body) != typeid(BodyNode))
     return false;
   link.constant = type != typeid(UniversalJoint) && type != typeid(EulerJoint) && type != typeid(PlanarJoint);
-  link.plain_integration = link.kind != Kind::so3 && link.kind != Kind::se3;
 
   links_.push_back(std::move(made));
   if (parent != nullptr)
@@ -87,6 +87,13 @@ bool TreeDynamics::is_for_engine() const
         return true;
     }
   return false;
+}
+
+bool TreeDynamics::is_within(double distance) const
+{
+  return std::all_of(links_.begin(), links_.end(), [distance](const auto& link) {
+    return ((link->frame->*FrameOf::transform).translation().array().abs() <= distance).all(); // not NaN
+  });
 }
 
 void TreeDynamics::fetch_numbers(std::size_t i) const
@@ -264,14 +271,15 @@ void TreeDynamics::update_inertias()
   visit(child, [&](auto& joint) {
     using Space = SpaceOf<decltype(joint)>;
     const auto& J = jacobian(joint, child.constant);
-    const Vector6 beta
-        = child.kinematic
-              ? Vector6(force + I * (partial + J * state(joint).mAccelerations))
-              : Vector6(
-                    force
-                    + I
-                          * (partial
-                             + J * joint.*Generic<Space>::inverse_inertia_implicit * joint.*Generic<Space>::total_force));
+    Vector6 a = partial;
+    if (child.kinematic) {
+      a += J * state(joint).mAccelerations;
+    } else {
+      const typename Space::JacobianMatrix JP = J * joint.*Generic<Space>::inverse_inertia_implicit;
+      a += JP * joint.*Generic<Space>::total_force;
+    }
+    Vector6 beta = force;
+    beta.noalias() += I * a;
     sum += spatial::to_parent(T, beta);
   });
 }

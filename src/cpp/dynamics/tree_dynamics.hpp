@@ -38,6 +38,12 @@ public:
   void apply_impulses();
   void integrate_positions(double dt);
 
+  /// As Skeleton::clearConstraintImpulses().
+  void clear_impulses();
+
+  /// Whether no body, since accelerate(), is farther from the origin along an axis.
+  bool is_within(double distance) const;
+
 private:
   enum class Kind { none, r1, r2, r3, so3, se3 };
 
@@ -55,7 +61,6 @@ private:
     const Vector6* external_force;
     const Eigen::Vector3d* axis = nullptr; ///< Of a revolute joint.
     bool constant = true;                  ///< The joint's Jacobian never changes.
-    bool plain_integration = true;         ///< q + dt dq, which is not how a ball or free joint goes on.
     std::vector<Link*> children;           ///< In the engine's order, in which their sums are formed.
 
     bool kinematic = false; ///< Its motion is prescribed. Brought up to date by each pass.

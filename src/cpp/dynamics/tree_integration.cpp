@@ -1,3 +1,4 @@
+#include "dynamics/spatial_inline.hpp"
 #include "dynamics/tree_joints.hpp"
 
 // How velocities and positions go on, and what is out of date then.
@@ -6,7 +7,19 @@ namespace pydart2 {
 
 using namespace tree;
 
-// Ball and free joints move by the engine's code, which goes through the tree where it finds that not all is marked.
+// Free joints move by the engine's code, which goes through the tree where it finds that not all is marked.
+
+namespace {
+
+/// How a ball joint goes on.
+[[gnu::flatten]] Eigen::Vector3d turned(const Eigen::Vector3d& q, const Eigen::Vector3d& dq, double dt)
+{
+  if ((q.array() == 0.0).all() && (dq.array() == 0.0).all())
+    return q;
+  return spatial::rotation_vector(spatial::rotation(q) * spatial::rotation(dq * dt));
+}
+
+} // namespace
 
 void TreeDynamics::integrate_velocities(double dt)
 {
@@ -32,17 +45,20 @@ void TreeDynamics::integrate_positions(double dt)
   bool changed = false;
   for (auto& link : links_)
     visit(*link, [&](auto& joint) {
-      using Vector = typename SpaceOf<decltype(joint)>::Vector;
+      using Space = SpaceOf<decltype(joint)>;
+      using Vector = typename Space::Vector;
       auto& s = state(joint);
-      if (!link->plain_integration)
+      if constexpr (std::is_same_v<Space, dart::math::SE3Space>)
         changed |= (s.mVelocities.array() != 0.0).any();
+      else if constexpr (std::is_same_v<Space, dart::math::SO3Space>)
+        changed |= assign<Vector>(s.mPositions, turned(s.mPositions, s.mVelocities, dt));
       else
         changed |= assign<Vector>(s.mPositions, s.mPositions + dt * s.mVelocities);
     });
   if (changed)
     mark_positions();
   for (auto& link : links_)
-    if (!link->plain_integration)
+    if (link->kind == Kind::se3)
       (link->joint->*JointOf::integrate_positions)(dt);
 }
 

@@ -20,6 +20,23 @@ void TreeDynamics::apply_impulses()
     update_velocity_change(*link, dt);
 }
 
+void TreeDynamics::clear_impulses()
+{
+  for (auto& link : links_) {
+    BodyNode& body = *link->body;
+    for (auto* impulse : {&(body.*Body::velocity_change), &(body.*Body::bias_impulse), &(body.*Body::constraint_impulse),
+                          &(body.*Body::impulse)})
+      impulse->setZero();
+    if (!is_kinematic(*link->joint))
+      visit(*link, [](auto& joint) {
+        using Space = SpaceOf<decltype(joint)>;
+        (joint.*Generic<Space>::constraint_impulses).setZero();
+        (joint.*Generic<Space>::total_impulse).setZero();
+        (joint.*Generic<Space>::velocity_change).setZero();
+      });
+  }
+}
+
 [[gnu::flatten]] void TreeDynamics::update_bias_impulse(Link& link)
 {
   BodyNode& body = *link.body;

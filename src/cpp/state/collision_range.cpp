@@ -4,6 +4,7 @@
 #include <dart/dynamics/PlaneShape.hpp>
 #include <dart/dynamics/ShapeNode.hpp>
 
+#include "dynamics/tree_dynamics.hpp"
 #include "state/blow_up.hpp"
 
 namespace pydart2 {
@@ -47,10 +48,11 @@ void check_range(const BodyNode& body, double far, bool ode, double time)
     check(far + reach(*node, ode), "a shape of body");
 }
 
+constexpr double surely_within = 1e7; ///< m, of each detector's range.
+
 /// A body whose shapes are no further from its origin than `shapes`.
 void check_range(const BodyNode& body, const Eigen::Isometry3d& pose, double shapes, bool ode, double time)
 {
-  constexpr double surely_within = 1e7; // of each detector's range
   const double far = pose.translation().cwiseAbs().maxCoeff();
   if (!(far + shapes <= surely_within))
     check_range(body, far, ode, time);
@@ -63,11 +65,13 @@ bool has_ode(const WorldRecord& record)
 
 } // namespace
 
-void check_range(const WorldRecord& record, SkeletonRecord& item, double time)
+void check_range(const WorldRecord& record, SkeletonRecord& item, double time, const TreeDynamics* mover)
 {
   const bool ode = has_ode(record);
   if (ode || !item.shapes_reach)
     item.shapes_reach = shapes_reach(*item.skeleton, ode);
+  if (mover != nullptr && mover->is_within(surely_within - *item.shapes_reach))
+    return;
   for (const auto* body : item.skeleton->getBodyNodes())
     check_range(*body, body->getWorldTransform(), *item.shapes_reach, ode, time);
 }

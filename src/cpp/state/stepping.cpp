@@ -100,10 +100,14 @@ void predict_mobile(const WorldRecord& record, SkeletonRecord& item, double end)
 void predict(const WorldRecord& record, SkeletonRecord& item, double end)
 {
   watch(item).save();
+  item.mover = nullptr;
   if (item.skeleton->isMobile())
     predict_mobile(record, item, end);
-  check_range(record, item, end);
-  clear_impulses(*item.skeleton); // which motors look at
+  check_range(record, item, end, item.mover);
+  if (item.mover == nullptr) // motors look at the impulses
+    return clear_impulses(*item.skeleton);
+  item.mover->clear_impulses();
+  item.skeleton->setImpulseApplied(false);
 }
 
 /// With those that are awake, and what their contacts wake.
