@@ -190,16 +190,17 @@ class Members(WorldPart):
         """
         if isinstance(skel, str):
             skel = self.skeleton(skel)
-        if skel not in self.skeletons:
+        index = skel.id
+        if skel not in self.skeletons[index : index + 1]:
             raise ValueError(f"{skel!r} is not in {self!r}")
         self.collision_result._look()  # the engine forgets them
-        index = skel.id
         self._handle.remove_skeleton(index)
-        self.skeletons.remove(skel)
-        for i, other in enumerate(self.skeletons):
+        del self.skeletons[index]
+        for i, other in enumerate(self.skeletons[index:], index):
             other.id = i
         self.collision_result._forget_skeleton(index)
-        self._find_controllers()
+        if skel.controller is not None:
+            self._find_controllers()
         for title, camera in list(self._cameras.items()):
             if any(body is not None and body.skeleton is skel for body in (camera.body, camera.target)):
                 del self._cameras[title]
