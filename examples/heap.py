@@ -10,7 +10,7 @@ from _headless import arguments, rehearse
 
 import pydart2 as pydart
 
-COUNT, HALF, WALL = 500, 0.8, 1.2  # bodies; half the width of the box, m; height of its walls, m
+COUNT, HALF, WALL = 500, 0.8, 0.8  # bodies; half the width of the box, m; height of its walls, m
 
 
 def pour(world: pydart.World) -> None:
@@ -20,11 +20,12 @@ def pour(world: pydart.World) -> None:
     for i in range(COUNT):
         layer, cell = divmod(i, 36)
         position = [places[cell % 6], places[cell // 6], 0.2 + 0.22 * layer]
-        if i % 4 == 0:
+        kind = (i + layer) % 4  # boxes on boxes would stand as towers, and fall over the walls
+        if kind == 0:
             body = world.add_box([0.16, 0.12, 0.1], 1.0, position, color=(0.80, 0.36, 0.28))
-        elif i % 4 == 1:
+        elif kind == 1:
             body = world.add_sphere(0.07, 1.0, position, color=(0.95, 0.72, 0.30))
-        elif i % 4 == 2:
+        elif kind == 2:
             body = world.add_cylinder(0.06, 0.12, 1.0, position, color=(0.36, 0.60, 0.46))
         else:
             body = world.add_capsule(0.05, 0.1, 1.0, position, color=(0.33, 0.47, 0.70))

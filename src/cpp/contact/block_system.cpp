@@ -185,7 +185,7 @@ int Sweeps::sweep(const Island& island)
     last_velocities_ = velocities - last_velocities_;
     const double square = last_x_.squaredNorm(), share = sweep == 1 ? 0.0 : square / last_square;
     last_square = square;
-    if (share > 1.0) {
+    if (!(share <= 1.0)) { // or a part of nothing, where a second turn takes back the first
       along_x_.setZero();
       along_velocities_.setZero();
       continue;
