@@ -307,7 +307,7 @@ void ConstraintMatrix::apply(std::size_t constraint, const double* impulses) con
     for (int row = 0; row < item.end - item.begin; ++row)
       sum += rows.directions[side].col(row) * impulses[row];
     body.setConstraintImpulse(sum);
-    body.getSkeleton()->setImpulseApplied(true);
+    trees_.skeleton(item.bodies[side]).setImpulseApplied(true);
   }
 }
 

@@ -60,7 +60,7 @@ void install_solver(dart::simulation::World& world, Solver solver)
 
 FastConstraintSolver& fast_solver(const dart::simulation::World& world)
 {
-  return dynamic_cast<FastConstraintSolver&>(*const_cast<dart::simulation::World&>(world).getConstraintSolver());
+  return static_cast<FastConstraintSolver&>(*const_cast<dart::simulation::World&>(world).getConstraintSolver());
 }
 
 void FastConstraintSolver::set_warm_start(bool enable)

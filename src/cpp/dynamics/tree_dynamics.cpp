@@ -98,7 +98,7 @@ bool TreeDynamics::is_within(double distance) const
 
 void TreeDynamics::fetch_numbers(std::size_t i) const
 {
-  if (i >= links_.size())
+  if (!fetch_ahead_ || i >= links_.size())
     return;
   const Link& link = *links_[i];
   fetch(*link.external_force);
@@ -323,11 +323,11 @@ void TreeDynamics::update_total_force(GenericJoint<Space>& joint, const Link& li
   visit(link, [&](auto& typed) {
     using Space = SpaceOf<decltype(typed)>;
     const auto& J = jacobian(typed, link.constant);
-    if (!link.kinematic)
-      assign<typename Space::Vector>(
-          state(typed).mAccelerations,
-          typed.*Generic<Space>::inverse_inertia_implicit
-              * (typed.*Generic<Space>::total_force - J.transpose() * I * from_parent));
+    if (!link.kinematic) {
+      const Eigen::Matrix<double, Space::NumDofs, 6> JI = J.transpose() * I;
+      const typename Space::Vector taken = JI * from_parent, left = typed.*Generic<Space>::total_force - taken;
+      assign<typename Space::Vector>(state(typed).mAccelerations, typed.*Generic<Space>::inverse_inertia_implicit * left);
+    }
     joint.*JointOf::primary_acceleration = J * state(typed).mAccelerations;
     joint.*JointOf::primary_acceleration_dirty = false;
   });

@@ -31,6 +31,9 @@ public:
   /// Whether the next step is one that the engine does in an order of its own: a locked joint that moves.
   bool is_for_engine() const;
 
+  /// Whether there are so many links in the world that what was not touched since the step before is not in the cache.
+  void set_fetch_ahead(bool enable) { fetch_ahead_ = enable; }
+
   /// As Skeleton::computeForwardDynamics(), integrateVelocities(), computeImpulseForwardDynamics() and
   /// integratePositions().
   void accelerate();
@@ -103,6 +106,7 @@ private:
 
   dart::dynamics::Skeleton& skeleton_;
   std::vector<std::unique_ptr<Link>> links_; ///< Parents first.
+  bool fetch_ahead_ = false;
 };
 
 } // namespace pydart2

@@ -33,7 +33,7 @@ int TreeImpulses::add(BodyNode& node)
   const int parent = above == nullptr ? none : add(*above);
   const int number = size();
   if (parent == none) {
-    trees_.push_back({number, number});
+    trees_.push_back({number, number, node.getSkeleton().get()});
   } else {
     auto& last = trees_[bodies_[parent].tree].last;
     bodies_[last].next = number;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <dart/dynamics/BodyNode.hpp>
+#include <dart/dynamics/Skeleton.hpp>
 #include <unordered_map>
 #include <variant>
 #include <vector>
@@ -73,6 +74,7 @@ public:
   double joint_velocity_change(int body, int dof) const;
 
   dart::dynamics::BodyNode& node(int body) const { return *bodies_[body].node; }
+  dart::dynamics::Skeleton& skeleton(int body) const { return *trees_[tree(body)].skeleton; }
 
   /// How many degrees of freedom impulses move at a body's joint.
   int dofs(int body) const;
@@ -116,6 +118,7 @@ private:
   struct Tree
   {
     int first, last;
+    dart::dynamics::Skeleton* skeleton;
   };
 
   static void read_joint(Body& body);

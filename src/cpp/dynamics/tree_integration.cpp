@@ -104,7 +104,7 @@ void TreeDynamics::each_cache(const Mark& mark)
 
 void TreeDynamics::fetch_flags(std::size_t i) const
 {
-  if (i >= links_.size())
+  if (!fetch_ahead_ || i >= links_.size())
     return;
   const Link& link = *links_[i];
   fetch(link.joint->*JointOf::transform_dirty);

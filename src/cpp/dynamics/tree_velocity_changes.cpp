@@ -51,9 +51,10 @@ void TreeDynamics::clear_impulses()
     }
     visit(*child, [&](auto& joint) {
       using Space = SpaceOf<decltype(joint)>;
-      const Vector6 beta = impulse
-                           + child->body->*Body::inertia * jacobian(joint, child->constant)
-                                 * joint.*Generic<Space>::inverse_inertia * joint.*Generic<Space>::total_impulse;
+      const typename Space::JacobianMatrix IJ = child->body->*Body::inertia * jacobian(joint, child->constant);
+      const typename Space::JacobianMatrix IJP = IJ * joint.*Generic<Space>::inverse_inertia;
+      Vector6 beta = impulse;
+      beta.noalias() += IJP * joint.*Generic<Space>::total_impulse;
       bias += spatial::to_parent(T, beta);
     });
   }
@@ -79,9 +80,11 @@ void TreeDynamics::clear_impulses()
     using Space = SpaceOf<decltype(joint)>;
     const auto& J = jacobian(joint, link.constant);
     auto& joint_change = joint.*Generic<Space>::velocity_change;
-    if (!link.kinematic)
-      joint_change = joint.*Generic<Space>::inverse_inertia
-                     * (joint.*Generic<Space>::total_impulse - J.transpose() * I * from_parent);
+    if (!link.kinematic) {
+      const Eigen::Matrix<double, Space::NumDofs, 6> JI = J.transpose() * I;
+      const typename Space::Vector taken = JI * from_parent, left = joint.*Generic<Space>::total_impulse - taken;
+      joint_change = joint.*Generic<Space>::inverse_inertia * left;
+    }
     change.noalias() += J * joint_change;
   });
   Vector6& impulse = body.*Body::impulse;

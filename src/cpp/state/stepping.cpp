@@ -48,8 +48,12 @@ void tell_of_large_groups(WorldRecord& record, double time)
 /// What moves a skeleton in this step.
 TreeDynamics* choose_mover(const WorldRecord& record, SkeletonRecord& item)
 {
+  constexpr std::size_t many = 8;
   auto* ours = record.dynamics == Dynamics::fast ? item.dynamics() : nullptr;
-  return ours != nullptr && ours->is_for_engine() ? nullptr : ours;
+  if (ours == nullptr || ours->is_for_engine())
+    return nullptr;
+  ours->set_fetch_ahead(record.skeletons.size() > many);
+  return ours;
 }
 
 void accelerate(SkeletonRecord& item)
