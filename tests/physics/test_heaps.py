@@ -250,6 +250,19 @@ def test_drops(size: float, dt: float) -> None:
         assert speed <= 1e-3, (below, above)
 
 
+@pytest.mark.parametrize("speed", [1.0, 10.0, 60.0])
+@pytest.mark.parametrize("kind", ["box", "ball"])
+def test_what_comes_fast_stops_at_the_surface(kind: str, speed: float) -> None:
+    """Also where a step takes it farther than its size."""
+    world = world_of()
+    body = SHAPES[kind](world, 0.1, (0.0, 0.0, 0.5))
+    body.dq = [0.0, 0.0, 0.0, 0.0, 0.0, -speed]
+    for _ in range(250):
+        world.step()
+        assert body.C[2] >= 0.05 - 1e-5
+    assert body.C[2] <= 0.05 + 1e-5
+
+
 def random_heap(seed: int, count: int = 12) -> pydart2.World:
     """Bodies of all kinds, of 3 cm to 30 cm and 1 g to 1,000 kg."""
     rng = np.random.default_rng(seed)

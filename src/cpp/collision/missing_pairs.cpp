@@ -100,7 +100,7 @@ MissingPairs::FilterPtr MissingPairs::only(const FilterPtr& inner, bool missing)
 bool MissingPairs::add(const CollisionOption& option, CollisionResult* result)
 {
   touches_.clear();
-  scene_.find(only(option.collisionFilter, true).get(), false, touches_);
+  scene_.find(only(option.collisionFilter, true).get(), 0.0, touches_);
   return report(touches_, option, result);
 }
 

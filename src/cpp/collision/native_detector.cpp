@@ -78,7 +78,7 @@ bool NativeDetector::collide(CollisionGroup* group, const CollisionOption& optio
   if (option.maxNumContacts == 0)
     return false;
   touches_.clear();
-  static_cast<NativeGroup*>(group)->scene().find(option.collisionFilter.get(), false, touches_);
+  static_cast<NativeGroup*>(group)->scene().find(option.collisionFilter.get(), 0.0, touches_);
   return report(touches_, option, result);
 }
 
@@ -148,10 +148,10 @@ void NativeGroup::look_again(native::PoseOf pose_of)
     scene_.look_again(pose_of_);
 }
 
-void NativeGroup::find(const CollisionOption& option, CollisionResult& result)
+void NativeGroup::find(const CollisionOption& option, double time_step, CollisionResult& result)
 {
   touches_.clear();
-  (stale_ ? scene() : scene_).find(option.collisionFilter.get(), true, touches_);
+  (stale_ ? scene() : scene_).find(option.collisionFilter.get(), time_step, touches_);
   auto& contacts = engine::contacts_of(result);
   contacts.resize(std::min(touches_.size(), option.maxNumContacts));
   for (std::size_t i = 0; i < contacts.size(); ++i) {

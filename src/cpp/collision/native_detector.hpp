@@ -67,9 +67,9 @@ public:
   /// To be called when something else than states has changed. From then on bodies are where `pose_of` says.
   void look_again(native::PoseOf pose_of);
 
-  /// The contacts of the shapes as they are, and of those that nearly touch, which have negative depths; with the touches
+  /// The contacts of the shapes as they are, and of those that nearly touch or come to in a step, which have negative depths; with the touches
   /// that they are made of.
-  void find(const dart::collision::CollisionOption& option, dart::collision::CollisionResult& result);
+  void find(const dart::collision::CollisionOption& option, double time_step, dart::collision::CollisionResult& result);
   const std::vector<native::Touch>& touches() const { return touches_; }
 
 protected:

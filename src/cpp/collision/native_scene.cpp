@@ -47,7 +47,7 @@ void Scene::set_objects(const std::vector<Object*>& objects)
     if (!bounded)
       unbounded_.push_back(static_cast<int>(items_.size()));
     watched_.push_back(static_cast<int>(items_.size()));
-    items_.push_back({object, body, skeleton, place, bounded, nullptr, false, Pose::Identity(), true, Pose::Identity(), {}, {}, false, false});
+    items_.push_back({object, body, skeleton, place, bounded, {}, false, Pose::Identity(), true, Pose::Identity(), {}, {}, false, false});
     items_.back().pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN()); // equal to no pose
     items_.back().wide = {Vector::Constant(1.0), Vector::Constant(-1.0)}; // contains nothing
   }
@@ -58,7 +58,7 @@ void Scene::look_again(const PoseOf& pose_of)
   for (auto& item : items_) {
     if (item.body == nullptr)
       continue;
-    item.body_pose = pose_of ? pose_of(item.body) : nullptr;
+    item.placed = pose_of ? pose_of(item.body) : Placed();
     item.on_body = true;
     item.relative = item.object->getShapeFrame()->asShapeNode()->getRelativeTransform();
     item.collidable = item.body->isCollidable();
@@ -117,24 +117,42 @@ void Scene::place(int index)
 {
   auto& item = this->item(index);
   const auto body_pose = [&]() -> const Pose& {
-    return item.body_pose != nullptr ? *item.body_pose : item.body->getWorldTransform();
+    return item.placed.pose != nullptr ? *item.placed.pose : item.body->getWorldTransform();
   };
   const Pose pose = item.on_body ? body_pose() * item.relative : item.object->getShapeFrame()->getWorldTransform();
-  if (item.pose.matrix() == pose.matrix())
+  const bool moved = item.pose.matrix() != pose.matrix();
+  if (moved) {
+    item.pose = pose;
+    if (item.bounded)
+      item.bounds = bounds_of(item.object->geometry(), pose);
+  }
+  look_at_motion(item);
+  const double reach = margin_of(item.object->geometry()) + item.motion.norm() + item.turning;
+  if (!item.bounded || (!moved && reach <= item.reach))
     return;
-  item.pose = pose;
-  if (!item.bounded)
-    return;
-  item.bounds = bounds_of(item.object->geometry(), pose);
-  if (!item.wide.contains(item.bounds)) {
+  item.reach = reach;
+  if (!item.wide.contains({item.bounds.low.array() - reach, item.bounds.high.array() + reach})) {
     widen(item);
     escaped_.push_back(index);
   }
 }
 
+void Scene::look_at_motion(Item& item)
+{
+  if (time_step_ == 0.0 || item.body == nullptr || !item.bounded)
+    return;
+  const bool known = item.placed.pose != nullptr;
+  const Vector angular = known ? *item.placed.angular : item.body->getAngularVelocity();
+  const Vector linear = known ? *item.placed.linear : item.body->getLinearVelocity();
+  const Vector& origin = known ? item.placed.pose->translation() : item.body->getWorldTransform().translation();
+  item.motion = time_step_ * (linear + angular.cross(item.pose.translation() - origin));
+  const bool ball = item.object->geometry().form == Form::sphere;
+  item.turning = ball ? 0.0 : time_step_ * angular.norm() * (item.bounds.high - item.bounds.low).norm();
+}
+
 void Scene::widen(Item& item)
 {
-  const double more = 0.1 * (item.bounds.high - item.bounds.low).norm() + margin_of(item.object->geometry());
+  const double more = 0.1 * (item.bounds.high - item.bounds.low).norm() + item.reach;
   item.wide = {item.bounds.low.array() - more, item.bounds.high.array() + more};
   item.escaped = true;
 }
@@ -192,18 +210,20 @@ void Scene::find_pairs_of(int index)
     add(plane);
 }
 
-void Scene::find(const dart::collision::CollisionFilter* filter, bool gaps, std::vector<Touch>& touches)
+void Scene::find(const dart::collision::CollisionFilter* filter, double time_step, std::vector<Touch>& touches)
 {
+  time_step_ = time_step;
   update();
   const engine::PairFilter fast(filter);
   for (const auto& [first, second] : watched_.size() == items_.size() ? pairs_ : watched_pairs_) {
     auto &a = item(first), &b = item(second);
     if (a.skeleton == b.skeleton && a.skeleton != nullptr && fast.surely_ignores_within(*a.skeleton))
       continue;
-    const double margin = gaps ? std::min(margin_of(a.object->geometry()), margin_of(b.object->geometry())) : 0.0;
+    const double least = std::min(margin_of(a.object->geometry()), margin_of(b.object->geometry()));
+    const double margin = time_step == 0.0 ? 0.0 : std::max(least, (a.motion - b.motion).norm() + a.turning + b.turning);
     if (a.bounded && b.bounded && !a.bounds.overlaps(b.bounds, margin))
       continue;
-    const auto mobile = [](const Item& item) { return item.body_pose != nullptr || item.skeleton->isMobile(); };
+    const auto mobile = [](const Item& item) { return item.placed.pose != nullptr || item.skeleton->isMobile(); };
     const bool sure = a.body != nullptr && b.body != nullptr && a.skeleton != b.skeleton && a.collidable && b.collidable
                       && (mobile(a) || mobile(b)) && fast.surely_collide(*a.body, *b.body);
     if (sure || filter == nullptr || !filter->ignoresCollision(a.object, b.object))
@@ -215,11 +235,16 @@ void Scene::touch(Item& a, Item& b, double margin, std::vector<Touch>& touches)
 {
   points_.clear();
   collide(a.object->geometry(), b.object->geometry(), a.pose.inverse(Eigen::Isometry) * b.pose, margin, points_);
-  for (const auto& point : points_)
+  const double least = std::min(margin_of(a.object->geometry()), margin_of(b.object->geometry()));
+  const Vector nearer = a.pose.linear().transpose() * (b.motion - a.motion);
+  for (const auto& point : points_) {
+    if (point.depth < -std::max(least, nearer.dot(point.normal) + a.turning + b.turning))
+      continue;
     touches.push_back(
         {{a.pose * point.at, a.pose.linear() * point.normal, point.depth, a.object->getShapeFrame(),
           b.object->getShapeFrame(), point.feature},
          a.object, b.object, static_cast<int>(&a - items_.data()), static_cast<int>(&b - items_.data()), point.at});
+  }
 }
 
 void Scene::find_between(Scene& other, const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches)

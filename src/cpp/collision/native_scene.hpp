@@ -39,8 +39,14 @@ struct Touch
   Vector on_a; ///< The point in the frame of the first.
 };
 
-/// Where a body is that the engine's objects do not yet know to be there; null for others.
-using PoseOf = std::function<const Pose*(const dart::dynamics::BodyNode*)>;
+/// Where a body is, and how fast, that the engine's objects do not yet know to be there; null for others.
+struct Placed
+{
+  const Pose* pose = nullptr;
+  const Vector* angular = nullptr; ///< Velocities of its origin, in the world's frame.
+  const Vector* linear = nullptr;
+};
+using PoseOf = std::function<Placed(const dart::dynamics::BodyNode*)>;
 
 /// All shapes that may collide with each other, and which are near each other. Its memory of earlier steps saves time
 /// only: what it finds depends on the shapes and where they are, not on what was before.
@@ -59,9 +65,9 @@ public:
   /// Whether bodies have another place in their skeletons than when the objects were set.
   bool reordered() const;
 
-  /// The contact points of pairs in the order of their shapes; also of those that are apart, if `gaps`, by 0.5 mm or 2 % of
-  /// the smaller one's size at most.
-  void find(const dart::collision::CollisionFilter* filter, bool gaps, std::vector<Touch>& touches);
+  /// The contact points of pairs in the order of their shapes; where there is a time step also of those that are apart: by
+  /// 0.5 mm or 2 % of the smaller one's size at most, or by what they come nearer in the step.
+  void find(const dart::collision::CollisionFilter* filter, double time_step, std::vector<Touch>& touches);
 
   /// Those between shapes of two scenes.
   void find_between(Scene& other, const dart::collision::CollisionFilter* filter, std::vector<Touch>& touches);
@@ -74,7 +80,7 @@ private:
     const dart::dynamics::Skeleton* skeleton;
     std::size_t place; ///< Of the body in its skeleton.
     bool bounded;
-    const Pose* body_pose; ///< Null: the engine knows.
+    Placed placed; ///< Nothing: the engine knows.
     bool on_body;          ///< That `relative` is read, so that the engine's frame of the shape needs no pose.
     Pose relative;         ///< To the body, in which it is.
     bool collidable; ///< The body is.
@@ -83,12 +89,16 @@ private:
     Bounds wide; ///< Within which it may move without being looked for anew.
     bool escaped;
     bool asleep;
+    Vector motion = Vector::Zero(); ///< In the time step, of the shape's origin.
+    double turning = 0.0;           ///< And how far its other points turn about that, at most.
+    double reach = 0.0;             ///< Beyond its bounds that it was looked for.
   };
   using Pair = std::pair<int, int>;
 
   Item& item(int i) { return items_[static_cast<std::size_t>(i)]; }
   void place();
   void place(int index);
+  void look_at_motion(Item& item);
   void widen(Item& item);
   void update();
   void update_tree();
@@ -97,6 +107,7 @@ private:
   void touch(Item& a, Item& b, double margin, std::vector<Touch>& touches);
 
   std::vector<Item> items_;
+  double time_step_ = 0.0; ///< Zero: without gaps.
   std::vector<int> unbounded_;
   std::vector<int> escaped_;
   BoundsTree tree_;

@@ -77,7 +77,7 @@ const std::vector<native::Touch>* FastConstraintSolver::find_contacts(const Step
   }
   if (!step.same)
     group->update();
-  group->find(mCollisionOption, mCollisionResult);
+  group->find(mCollisionOption, mTimeStep, mCollisionResult);
   return &group->touches();
 }
 

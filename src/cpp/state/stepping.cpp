@@ -123,9 +123,12 @@ void solve(WorldRecord& record, double end)
     group->set_asleep(record.sleep.asleep, record.sleep.version);
   auto& plan = record.plan;
   if (group != nullptr && !plan.same)
-    group->look_again([&plan](const BodyNode* body) -> const Eigen::Isometry3d* {
+    group->look_again([&plan](const BodyNode* body) -> native::Placed {
       const int place = plan.free.find(body);
-      return place < 0 ? nullptr : &plan.free[static_cast<std::size_t>(place)].pose;
+      if (place < 0)
+        return {};
+      const auto& free = plan.free[static_cast<std::size_t>(place)];
+      return {&free.pose, &free.angular, &free.linear};
     });
   const auto wake = [&](const dart::collision::CollisionResult& contacts) {
     std::vector<dart::dynamics::SkeletonPtr> skeletons;
