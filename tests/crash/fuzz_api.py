@@ -1,6 +1,6 @@
 """Calls the whole public API with hostile arguments: every failure is a documented exception, and the process lives.
 
-    python tests/crash/fuzz_api.py 1000000 [FIRST]
+    python tests/crash/fuzz_api.py 1000000 [FIRST]    a million calls, or what an hour takes
 
 Hypothesis draws the calls, four hundred to a world. After them a world that nobody touched steps as it always did.
 """
@@ -44,6 +44,7 @@ from pydart2.flat import api as flat_api
 DOCUMENTED = (pydart2.PydartError, ValueError, TypeError, IndexError, KeyError, AttributeError, OverflowError, OSError)
 CALLS_PER_WORLD = 400
 MOST_SECONDS = 10.0  # of the processor for one call
+MOST_SECONDS_IN_ALL = 3600.0
 #: The processes import the same package.
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(pydart2.__file__).parents[1])}
 
@@ -280,11 +281,11 @@ def batches(calls: int, first: int) -> Iterator[tuple[int, int]]:
 
 
 def run(calls: int, first: int) -> Report:
-    """Make calls in other processes, and say what came of them."""
-    report = Report()
+    """Make calls in other processes, an hour long at most, and say what came of them."""
+    report, end = Report(), time.monotonic() + MOST_SECONDS_IN_ALL
     log = Path(__file__).parents[2] / "build" / f"fuzz-{first}.log"
     log.parent.mkdir(exist_ok=True)
-    for number, examples in batches(calls, first):
+    for number, examples in itertools.takewhile(lambda _: time.monotonic() < end, batches(calls, first)):
         command = [sys.executable, str(Path(__file__).resolve()), "--work", str(number), str(examples), str(log)]
         with tempfile.TemporaryDirectory() as folder:  # for the files that calls write
             done = subprocess.run(

@@ -1,6 +1,6 @@
 """Builds, changes, asks, copies, saves and steps worlds as scripts do, with values that are mostly sensible.
 
-    python tests/crash/fuzz_worlds.py 1000000 [FIRST]    a million calls
+    python tests/crash/fuzz_worlds.py 1000000 [FIRST]    a million calls, or what an hour takes
     python tests/crash/fuzz_worlds.py --again SEED       the calls of one process again, each printed before it is made
 
 Where fuzz_api.py calls everything with anything, the calls here are mostly accepted and build on one another: bodies
@@ -36,6 +36,7 @@ CALLS_PER_WORLD = 120
 WORLDS_PER_PROCESS = 25
 STEPS_AMONG_DEEDS = 8
 MOST_SECONDS = 20.0  # of the processor for one call
+MOST_SECONDS_IN_ALL = 3600.0
 MOST_CONTACTS = 200  # with an exact solver
 HANGS_AFTER = 240.0  # s for all of a world
 
@@ -93,10 +94,13 @@ def work(seed: int, tell: Callable[[str], None]) -> None:
 
 
 def run(calls: int, first: int) -> tuple[Counter[str], list[str]]:
-    """At least so many calls, in other processes: how often each deed was accepted, or any refused, and troubles."""
+    """So many calls, in other processes, or what an hour takes.
+
+    How often each deed was accepted, or any refused, and troubles.
+    """
     counts, troubles = Counter[str](), list[str]()
-    seed = first
-    while counts.total() < calls and seed - first <= 2 * calls:
+    seed, end = first, time.monotonic() + MOST_SECONDS_IN_ALL
+    while counts.total() < calls and seed - first <= 2 * calls and time.monotonic() < end:
         command = [sys.executable, "-X", "faulthandler", __file__, "--work", str(seed)]
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", env=ENVIRONMENT)
         for line in done.stdout.splitlines():
