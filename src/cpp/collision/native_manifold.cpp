@@ -14,8 +14,8 @@ struct Cut
   std::uint32_t edge, key;
 };
 
-/// Of an edge: corners so little beyond it are not cut off. Where edges lie on each other, their crossing would run along
-/// them with the least motion.
+/// Of an edge: corners so little beyond it stay where they are. Where edges lie on each other, their crossing would run
+/// along them with the least motion.
 constexpr double slack = 1e-4;
 constexpr std::size_t room = 2 * Feature::most + 2;
 
@@ -35,17 +35,17 @@ struct Outline
 void cut(const Outline& from, const Vector& through, const Vector& out, std::uint32_t plane, bool closed, Outline& into)
 {
   into.count = 0;
-  const double most = out.dot(through) + slack * out.squaredNorm();
+  const double most = slack * out.squaredNorm();
   for (std::size_t i = 0; i < from.count; ++i) {
     const Cut& here = from.cuts[i];
-    const double outside = out.dot(here.at) - most;
-    if (outside <= 0)
+    const double outside = out.dot(here.at - through);
+    if (outside <= most)
       into.add(here);
     if (i + 1 == from.count && !closed)
       break;
     const Cut& next = from.cuts[(i + 1) % from.count];
-    const double next_outside = out.dot(next.at) - most;
-    if ((outside <= 0) == (next_outside <= 0))
+    const double next_outside = out.dot(next.at - through);
+    if ((outside <= most) == (next_outside <= most) || std::min(outside, next_outside) > 0)
       continue;
     const Vector at = here.at + (outside / (outside - next_outside)) * (next.at - here.at);
     const std::uint32_t key = 64 * (plane + 1) + here.edge;
