@@ -386,7 +386,7 @@ def test_a_compiler_that_dies_ends_its_trial_only(tmp_path: Path) -> None:
 
 def test_what_is_new_is_tried() -> None:
     """In a helper process, with MuJoCo's own library: a time that is too short for the compiler says so."""
-    bodies = "".join(f"<body name='b{i}'><joint/><geom size='.1'/></body>" for i in range(20_000))
+    bodies = "".join(f"<body name='b{i}'><joint/><geom size='.1'/></body>" for i in range(100_000))
     with pytest.raises(pydart.LoadError, match=r"MuJoCo does not finish it in 0\.5 s of processor time"):
         pydart.World(0.001).add_skeleton(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>", load_seconds=0.5)
 
