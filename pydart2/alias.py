@@ -1,7 +1,7 @@
 """Short names of methods, declared in one line: ``M = Alias(mass_matrix)``.
 
-The long form is looked up on the object at each use, as in the original: a subclass that changes the one changes the
-other. Type and docstring are the long form's.
+The long form is looked up on the object at each use (by `LongForm`), as in the original: a subclass that changes the
+one changes the other. Type and docstring are the long form's.
 """
 
 from __future__ import annotations
@@ -10,26 +10,11 @@ from collections.abc import Callable
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Generic, Never, Self, TypeVar, cast, overload
 
+from pydart2._native import LongForm
+
 Got = TypeVar("Got")
 Given = TypeVar("Given")
 Method = TypeVar("Method", bound=Callable[..., Any])
-
-
-# Compiled, as namedtuple does: with getattr() and a name that is looked up, each use takes twice the time.
-
-
-def _reader(method: str) -> Callable[[Any], Any]:
-    return cast("Callable[[Any], Any]", eval(f"lambda self: self.{method}()"))
-
-
-def _setter(method: str) -> Callable[[Any, Any], Any]:
-    """None is refused, which the method may take for an argument that is left out."""
-    code = f"lambda self, value: self.{method}(value) if value is not None else refuse({method[4:]!r})"
-    return cast("Callable[[Any, Any], Any]", eval(code, {"refuse": _refuse_none}))
-
-
-def _refuse_none(what: str) -> None:
-    raise TypeError(f"{what} cannot be None")
 
 
 class Alias(property, Generic[Got]):
@@ -42,7 +27,7 @@ class Alias(property, Generic[Got]):
     """
 
     def __init__(self, long: Callable[[Any], Got]) -> None:
-        super().__init__(_reader(long.__name__), doc=long.__doc__)
+        super().__init__(LongForm(long.__name__), doc=long.__doc__)
 
     if TYPE_CHECKING:
 
@@ -64,7 +49,7 @@ class Settable(Alias[Got], Generic[Got, Given]):
     """
 
     def __init__(self, long: Callable[[Any], Got], set_long: Callable[[Any, Given], object]) -> None:
-        property.__init__(self, _reader(long.__name__), _setter(set_long.__name__), doc=long.__doc__)
+        property.__init__(self, LongForm(long.__name__), LongForm(set_long.__name__), doc=long.__doc__)
 
     if TYPE_CHECKING:
 

@@ -24,7 +24,6 @@ from pydart2.targets import TargetControl
 if TYPE_CHECKING:
     import os
 
-    from pydart2.skel_vector import SkelVector
     from pydart2.world import World
 
 _log = logging.getLogger("pydart2")
@@ -92,7 +91,6 @@ class Skeleton(Dynamics, TargetControl, ShortForms, SavedSkeleton, Assignable):
         self.friction = _friction
         self.filename: str | None = None
         self._controller: Controller | None = None
-        self._tau: SkelVector | None = None
         if _filename is not None:
             self._load(_filename)
         elif _id is not None:
@@ -126,6 +124,8 @@ class Skeleton(Dynamics, TargetControl, ShortForms, SavedSkeleton, Assignable):
         return part_of, (self.world, "skeletons", self.id), kept
 
     def __setstate__(self, kept: dict[str, object]) -> None:
+        if kept.get("_tau") is None:  # as release candidates saved it where none was set
+            kept.pop("_tau", None)
         self.__dict__.update(kept)
         self._handle.set_controlled(self._controller is not None)
 

@@ -9,6 +9,7 @@
 #include "engine/shared_scenes.hpp"
 #include "numpy_glue.hpp"
 #include "python/last_words.hpp"
+#include "python/long_form.hpp"
 #include "python/looked_at.hpp"
 #include "without_gil.hpp"
 %}
@@ -26,6 +27,7 @@
   pydart2::python::set_last_words();
   on_exit(pydart2::python::WithoutGil::at_exit, nullptr);
   PyModule_AddObject(m, "LookedAt", pydart2::looked_at::make_type());
+  PyModule_AddObject(m, "LongForm", pydart2::long_form::make_type());
   PyModule_AddObject(m, "NamedVector", pydart2::named_vector::make_type());
   PyModule_AddObject(m, "ContactRow", pydart2::contact_row::make_type());
 %}
@@ -52,7 +54,7 @@
 %include "batch.i"
 
 %pythoncode %{
-from ._pydart2_api import ContactRow, LookedAt, NamedVector
+from ._pydart2_api import ContactRow, LongForm, LookedAt, NamedVector
 
 # The flat functions are made of the handle classes, when the first is wanted. (__path__ is asked for at import.)
 def __getattr__(name):

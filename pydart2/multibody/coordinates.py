@@ -16,8 +16,6 @@ from pydart2.skel_vector import SkelVector
 class Coordinates(Structure):
     """The part of Skeleton that reads and sets its state."""
 
-    _tau: SkelVector | None
-
     def positions(self, out: SkelVector | None = None) -> SkelVector:
         """Generalized positions, shape (ndofs,), rad or m. A copy."""
         return self._handle.positions(self._pattern if out is None else out)
@@ -27,7 +25,10 @@ class Coordinates(Structure):
 
         Or some of them by name: ``set_positions({"j_knee": 0.4}, j_hip=0.1)``.
         """
-        self._handle.set_positions(self._vector(_q, by_name, "q"))
+        if isinstance(_q, np.ndarray) and not by_name:  # the usual case, told without a call
+            self._handle.set_positions(_q)
+        else:
+            self._handle.set_positions(self._vector(_q, by_name, "q"))
 
     q = Settable(positions, set_positions)
 
@@ -39,7 +40,10 @@ class Coordinates(Structure):
 
     def set_velocities(self, _qdot: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized velocities, shape (ndofs,), rad/s or m/s, or some of them by name."""
-        self._handle.set_velocities(self._vector(_qdot, by_name, "dq"))
+        if isinstance(_qdot, np.ndarray) and not by_name:
+            self._handle.set_velocities(_qdot)
+        else:
+            self._handle.set_velocities(self._vector(_qdot, by_name, "dq"))
 
     dq = Settable(velocities, set_velocities)
 
@@ -113,7 +117,7 @@ class Coordinates(Structure):
 
         They stay after the step that used them, in which the engine clears its own.
         """
-        return (self._pattern if self._tau is None else self._tau).copy()
+        return self._tau.copy()
 
     def set_forces(self, _tau: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized forces of the next step, shape (ndofs,), N m or N; or some by name, the others zero."""
@@ -126,12 +130,12 @@ class Coordinates(Structure):
 
     @tau.setter
     def tau(self, tau: ArrayLike) -> None:
-        self._tau = self._handle.set_forces(tau, self._pattern)  # the step will clear the engine's
+        self._handle.set_forces(tau, self._tau)  # the step will clear the engine's
 
     set_tau = also(set_forces)
 
     def _read_tau(self) -> None:
-        """What the engine has is what was last set."""
+        """What the engine has is what was last set: of another tree, or a state that is put back."""
         self._tau = self._handle.forces(self._pattern)
 
     def commands(self, out: SkelVector | None = None) -> SkelVector:
@@ -144,14 +148,15 @@ class Coordinates(Structure):
         A command is a force for FORCE joints (N m or N), a velocity for SERVO and VELOCITY (rad/s or m/s), an
         acceleration for ACCELERATION (rad/s² or m/s²).
         """
-        self._handle.set_commands(self._vector(_commands, by_name, "comms"))
+        if isinstance(_commands, np.ndarray) and not by_name:
+            self._handle.set_commands(_commands)
+        else:
+            self._handle.set_commands(self._vector(_commands, by_name, "comms"))
 
     comms = Settable(commands, set_commands)
 
     def _vector(self, values: ArrayLike | Mapping[str, float] | None, by_name: dict[str, float], rest: str) -> Any:
         """A whole vector as it is; entries by name in the vector of the name `rest`, or in zeros if that is empty."""
-        if isinstance(values, np.ndarray) and not by_name:  # the usual case, told apart first as it is the quickest
-            return values
         if values is not None and not isinstance(values, Mapping):
             if by_name:
                 raise TypeError("give a whole vector or entries by name, not both")

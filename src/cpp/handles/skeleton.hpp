@@ -67,7 +67,7 @@ public:
   void set_velocities(const VectorIn& velocities);
   void set_accelerations(const VectorIn& accelerations);
   /// What they are then comes out, until a step clears them.
-  void set_forces(const VectorIn& forces, Output& like);
+  void set_forces(const VectorIn& forces, Output& into);
   void set_commands(const VectorIn& commands);
 
   /// [q, dq].

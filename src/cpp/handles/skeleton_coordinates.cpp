@@ -98,7 +98,7 @@ void SkeletonHandle::set_accelerations(const VectorIn& accelerations)
   skeleton().setAccelerations(per_dof(accelerations, "accelerations"));
 }
 
-void SkeletonHandle::set_forces(const VectorIn& forces, Output& like)
+void SkeletonHandle::set_forces(const VectorIn& forces, Output& into)
 {
   if (!skeleton_.skeleton->not_numbers) { // else nothing moves, and what a controller makes of NaN is NaN
     const auto& values = per_dof(forces, "forces");
@@ -106,7 +106,7 @@ void SkeletonHandle::set_forces(const VectorIn& forces, Output& like)
     for (std::size_t i = 0; i < dofs.size(); ++i)
       dofs[i]->setForce(values[static_cast<long>(i)]);
   }
-  this->forces(like);
+  this->forces(into);
 }
 
 void SkeletonHandle::set_commands(const VectorIn& commands)

@@ -4,6 +4,8 @@ namespace pydart2::looked_at {
 
 namespace {
 
+PyTypeObject* type = nullptr;
+PyObject* called_names = nullptr; // of attributes that are callable
 PyObject* unlooked_name = nullptr;
 PyObject* ask_name = nullptr;
 
@@ -32,6 +34,8 @@ int is_taken(PyObject* self, PyObject* name, PyObject* value)
 int set(PyObject* self, PyObject* name, PyObject* value)
 {
   const int taken = is_taken(self, name, value);
+  if (taken > 0 && value != nullptr && PyCallable_Check(value) && !is_private(name) && PySet_Add(called_names, name) < 0)
+    return -1;
   return taken > 0 ? PyObject_GenericSetAttr(self, name, value) : taken;
 }
 
@@ -39,6 +43,7 @@ int set(PyObject* self, PyObject* name, PyObject* value)
 
 PyObject* make_type()
 {
+  called_names = PySet_New(nullptr);
   unlooked_name = PyUnicode_InternFromString("_unlooked");
   ask_name = PyUnicode_InternFromString("_is_taken");
   PyType_Slot slots[] = {
@@ -46,7 +51,14 @@ PyObject* make_type()
       {Py_tp_doc, const_cast<char*>("What looks at the names of attributes that are set; the base of Assignable.")},
       {0, nullptr}};
   PyType_Spec spec = {"pydart2.pydart2_api.LookedAt", 0, 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE, slots};
-  return PyType_FromSpec(&spec);
+  PyObject* made = called_names == nullptr ? nullptr : PyType_FromSpec(&spec);
+  type = reinterpret_cast<PyTypeObject*>(made);
+  return Py_XNewRef(made);
+}
+
+bool may_have_its_own(PyObject* object, PyObject* name)
+{
+  return !PyObject_TypeCheck(object, type) || (PySet_GET_SIZE(called_names) != 0 && PySet_Contains(called_names, name) != 0);
 }
 
 } // namespace pydart2::looked_at

@@ -10,4 +10,8 @@ namespace pydart2::looked_at {
 /// Makes the type; null with a Python error set.
 PyObject* make_type();
 
+/// Whether an object may have an attribute of its own where its class has a function of that name. It may, where such an
+/// attribute has been set to something callable in any object (but by way of `__dict__`), or the object is not a LookedAt.
+bool may_have_its_own(PyObject* object, PyObject* name);
+
 } // namespace pydart2::looked_at

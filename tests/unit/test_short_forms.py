@@ -1,0 +1,59 @@
+"""A short name does what its long form does, wherever that comes from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pydart2
+
+SEVEN = np.full(6, 7.0)
+
+
+def test_a_class_that_changes_the_long_form_does(cubes: pydart2.World, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Turned(pydart2.Skeleton):
+        def positions(self, out: Any = None) -> Any:
+            return SEVEN
+
+        def set_positions(self, _q: Any = None, **by_name: float) -> None:
+            self.given = _q
+
+    turned, plain = Turned(cubes, _id=1), cubes.skeletons[1]
+    turned.q = [1.0]
+    assert turned.given == [1.0] and turned.q is SEVEN and plain.q is not SEVEN
+    monkeypatch.setattr(pydart2.Skeleton, "positions", lambda self: SEVEN)
+    assert plain.q is SEVEN
+    monkeypatch.undo()
+    assert plain.q is not SEVEN
+
+
+def test_an_object_that_changes_the_long_form_does(cubes: pydart2.World) -> None:
+    cube, other = cubes.skeletons[1:3]
+    cube.positions = lambda: SEVEN
+    assert cube.q is SEVEN and other.q is not SEVEN
+    del cube.positions
+    assert cube.q is not SEVEN
+    given: list[Any] = []
+    cube.set_positions = given.append
+    cube.q = SEVEN
+    assert given == [SEVEN] and not np.array_equal(cube.q, SEVEN)
+
+
+def test_no_value_is_none(cubes: pydart2.World) -> None:
+    cube = cubes.skeletons[1]
+    for name in ("q", "dq", "ddq", "x", "comms"):
+        with pytest.raises(TypeError, match=r"s cannot be None$"):
+            setattr(cube, name, None)
+
+
+def test_forces_last_set_follow_the_tree(cubes: pydart2.World) -> None:
+    cube = cubes.skeletons[1]
+    cube.tau = np.arange(6.0)
+    cube.joints[0].set_name("root")
+    assert cube.tau["root_pos_x"] == 3.0
+    cube.add_body("arm", cube.bodynodes[0], "revolute", axis=(0, 0, 1)).add_box((0.1, 0.1, 0.1), mass=1.0)
+    assert cube.tau.shape == (7,) and cube.tau[cube.dofs[-1].name] == 0.0
+    cube.remove_body("arm")
+    assert cube.tau.shape == (6,)
