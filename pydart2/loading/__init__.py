@@ -45,6 +45,7 @@ _KINDS = {
     "shape": ("visual", "collision", "visualization_shape", "collision_shape", "geom"),
     "skeleton": ("skeleton", "robot", "model"),
 }
+_QUICK = 1.0  # s: Ctrl-C may wait as long
 _log = logging.getLogger("pydart2")
 
 
@@ -55,7 +56,8 @@ class Model(Readable):
     document: Document
     rules: Rules
     source: ModelSource
-    safe: bool
+    safe: bool  # whether to try it first
+    ours: bool  # whether it is not tried as it comes with the package
     files: list[str] = field(default_factory=list)
     light: bool = False  # whether links without <inertial> weigh less than in the engine
     load_seconds: float | None = None
@@ -78,9 +80,9 @@ class Model(Readable):
         """A new world with the content of the file."""
         if not self.has_world:
             raise self.document.error(self.document.root, "it has no world")
-        seconds = self._try(world=True)
+        seconds, is_quick = self._try(world=True)
         with self._located():
-            world = WorldHandle.load(self.source, seconds)
+            world = WorldHandle.load(self.source, seconds, is_quick)
         for index in range(world.num_skeletons()):
             self._unbind(world, index)
         return world
@@ -92,9 +94,9 @@ class Model(Readable):
             many = f"; world.add_skeletons(file) adds what is in it: {inside}" if inside else ""
             what = f"is a world; load it with World(step, file){many}" if self.has_world else "has no model"
             raise self.document.error(self.document.root, f"it {what}")
-        seconds = self._try(world=False)
+        seconds, is_quick = self._try(world=False)
         with self._located():
-            index = world.add_skeleton(self.source, seconds)
+            index = world.add_skeleton(self.source, seconds, is_quick)
         self._unbind(world, index)
         return index
 
@@ -109,14 +111,17 @@ class Model(Readable):
                     if is_unbounded(getattr(dof, f"{kind}_{bound}_limit")()):
                         getattr(dof, f"set_{kind}_{bound}_limit")(none)
 
-    def _try(self, world: bool) -> float:
-        """In a helper process; how long the reading may take then, s of processor time."""
+    def _try(self, world: bool) -> tuple[float, bool]:
+        """In a helper process; how long the reading may take then, s of processor time, and whether it is known to be
+        so quick that nobody would end it."""
         seconds = seconds_for(self.source, self.files) if self.load_seconds is None else self.load_seconds
-        reason = try_model(self.source, world, self.files, seconds) if self.safe else None
+        if not self.safe:
+            return seconds, self.ours
+        reason, took = try_model(self.source, world, self.files, seconds)
         if reason is not None:
             hint = "; it may be for want of mass: engine_defaults=True gives each link without <inertial> 1 kg"
             raise self._error(reason + hint * (self.light and "Nan" in reason))
-        return seconds
+        return seconds, took < _QUICK
 
     @contextlib.contextmanager
     def _located(self) -> Iterator[None]:
@@ -253,7 +258,8 @@ class _Builder:
             text = _for_the_engine(self.main)
             self.source.add_text(self.path, re.sub(rb"</mujoco\s*>\s*$", b"<default/></mujoco>", text).decode())
         safe = _is_tried(self.main.path, self.options)
-        return Model(self.main, self.rules, self.source, safe, self.files, light, self.options.load_seconds)
+        ours = not safe and self.options.safe is None
+        return Model(self.main, self.rules, self.source, safe, ours, self.files, light, self.options.load_seconds)
 
     def _add(self, path: str, document: Document, above: tuple[str, ...]) -> None:
         """Check a document and those that it includes."""

@@ -22,7 +22,7 @@ BYTES = 4e9  # of memory, and a hundred more for each byte of the files
 MOST_IDLE = 2
 _ASSERTION = re.compile(r"(?:.*/)?([^/\s]+\.\w+:\d+): .*Assertion `(.*)' failed")
 
-_known_to_work: set[bytes] = set()
+_took: dict[bytes, float] = {}  # s by the clock, of what worked
 
 
 def seconds_for(source: ModelSource, files: Iterable[str]) -> float:
@@ -30,21 +30,16 @@ def seconds_for(source: ModelSource, files: Iterable[str]) -> float:
     return SECONDS + (len(source.packed()) + _stamp(files)[0]) / 1e6
 
 
-def try_model(source: ModelSource, world: bool, files: Iterable[str], seconds: float) -> str | None:
-    """Why a model cannot be loaded or simulated, None if it can; `files` are those that it names.
+def try_model(source: ModelSource, world: bool, files: Iterable[str], seconds: float) -> tuple[str | None, float]:
+    """Why a model cannot be loaded or simulated, None if it can, and how long it took to see, s by the clock.
 
-    A model that worked is not tried again in this process unless it or one of its files has changed.
+    `files` are those that it names. A model that worked is not tried again in this process unless it or one of its
+    files has changed.
     """
     packed = source.packed().encode()
     sizes, stamp = _stamp(files)
     key = hashlib.sha256(packed + stamp + bytes([world])).digest()
-    if key in _known_to_work:
-        return None
-    memory = BYTES + 100 * (len(packed) + sizes)
-    reason = _run(b"world " * world + b"skeleton " * (not world) + packed, seconds, memory)
-    if reason is None:
-        _known_to_work.add(key)
-    return reason
+    return _try(key, b"world " * world + b"skeleton " * (not world) + packed, seconds, 100 * (len(packed) + sizes))
 
 
 def try_mjcf(libraries: Iterable[str], path: str | None, text: bytes, seconds: float) -> str | None:
@@ -53,13 +48,22 @@ def try_mjcf(libraries: Iterable[str], path: str | None, text: bytes, seconds: f
     `libraries` are the paths of MuJoCo's, then of its plugins. What worked is not tried again in this process.
     """
     key = hashlib.sha256(repr(path).encode() + text).digest()
-    if key in _known_to_work:
-        return None
     head = "\n".join(["mjcf", *libraries, "", path or "", ""])
-    reason = _run(head.encode() + text, seconds, BYTES + 100 * len(text), "MuJoCo")
+    return _try(key, head.encode() + text, seconds, 100 * len(text), "MuJoCo")[0]
+
+
+def _try(
+    key: bytes, request: bytes, seconds: float, memory: float, who: str = "the engine"
+) -> tuple[str | None, float]:
+    """Asks a helper, unless what has this key is known to work."""
+    if key in _took:
+        return None, _took[key]
+    start = time.monotonic()
+    reason = _run(request, seconds, BYTES + memory, who)
+    took = time.monotonic() - start
     if reason is None:
-        _known_to_work.add(key)
-    return reason
+        _took[key] = took
+    return reason, took
 
 
 def _stamp(files: Iterable[str]) -> tuple[int, bytes]:
@@ -185,7 +189,7 @@ def getting_ready() -> Iterator[None]:
             helper.wait_for_first()
 
 
-def _run(request: bytes, seconds: float, memory: float, who: str = "the engine") -> str | None:
+def _run(request: bytes, seconds: float, memory: float, who: str) -> str | None:
     for _ in range(2 + MOST_IDLE):  # somebody may have ended those that wait
         helper = _helper()
         try:

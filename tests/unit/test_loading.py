@@ -419,8 +419,20 @@ pydart2.World(0.001).add_skeleton({URDF!r}, safe=True)
     assert done.stdout == "" and done.stderr == ""
 
 
+def test_quick_models_leave_one_thread() -> None:
+    """After a second thread the C++ library counts references with locked instructions, which steps feel by a tenth."""
+    code = f"""
+import ctypes, pydart2
+pydart2.World(0.001, "skel/cubes.skel").add_skeleton({URDF!r})
+print(ctypes.c_char.in_dll(ctypes.CDLL(None), "__libc_single_threaded").value)
+"""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout == repr(b"\x01") + "\n", done.stderr
+
+
 def test_own_models_are_not_tried(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pydart2.loading.try_model", lambda *_: "tried")
+    monkeypatch.setattr("pydart2.loading.try_model", lambda *_: ("tried", 0.0))
     World(0.001, "skel/cubes.skel")
     with pytest.raises(LoadError, match="tried"):
         World(0.001, "skel/cubes.skel", safe=True)

@@ -63,9 +63,9 @@ WorldHandle::WorldHandle(WorldRef record) : record_(std::move(record)) {}
 
 WorldHandle::WorldHandle(double time_step) : record_(Manager::instance().add(make_world(time_step))) {}
 
-WorldHandle WorldHandle::load(const ModelSource& source, double seconds)
+WorldHandle WorldHandle::load(const ModelSource& source, double seconds, bool is_quick)
 {
-  auto world = aside(seconds, [source] { return load_world(source); });
+  auto world = is_quick ? load_world(source) : aside(seconds, [source] { return load_world(source); });
   return WorldHandle(Manager::instance().add(std::move(world), source.packed()));
 }
 
@@ -104,9 +104,10 @@ SkeletonHandle WorldHandle::skeleton(long index) const
   return {record_, skeletons[check::index(index, skeletons.size(), "skeleton")]};
 }
 
-int WorldHandle::add_skeleton(const ModelSource& source, double seconds)
+int WorldHandle::add_skeleton(const ModelSource& source, double seconds, bool is_quick)
 {
-  record_->add(aside(seconds, [source] { return load_skeleton(source); }), source.packed());
+  record_->add(
+      is_quick ? load_skeleton(source) : aside(seconds, [source] { return load_skeleton(source); }), source.packed());
   return static_cast<int>(record_->skeletons.size()) - 1;
 }
 

@@ -23,8 +23,9 @@ public:
   /// An empty world with DART's own gravity.
   explicit WorldHandle(double time_step);
 
-  /// The world of a model source that has one; LoadError if reading takes more seconds of the processor.
-  static WorldHandle load(const ModelSource& source, double seconds);
+  /// The world of a model source that has one; LoadError if reading takes more seconds of the processor. What is known to
+  /// be quick is read on this thread: in a process that has had another, counting references takes longer ever after.
+  static WorldHandle load(const ModelSource& source, double seconds, bool is_quick);
 
   /// The world of an id, if it lives.
   static WorldHandle find(long id);
@@ -35,8 +36,8 @@ public:
   int num_skeletons() const;
   SkeletonHandle skeleton(long index) const;
 
-  /// Adds the skeleton of a model source; returns its index. LoadError if reading takes more seconds of the processor.
-  int add_skeleton(const ModelSource& source, double seconds);
+  /// Adds the skeleton of a model source; returns its index. As load().
+  int add_skeleton(const ModelSource& source, double seconds, bool is_quick);
 
   /// Adds a skeleton without bodies, to be built; returns its index. Another name is given if this one is taken.
   int add_empty_skeleton(const std::string& name);
