@@ -57,10 +57,10 @@ class Model(Readable):
     rules: Rules
     source: ModelSource
     safe: bool  # whether to try it first
-    ours: bool  # whether it is not tried as it comes with the package
     files: list[str] = field(default_factory=list)
     light: bool = False  # whether links without <inertial> weigh less than in the engine
     load_seconds: float | None = None
+    ours: bool = False  # whether it is not tried as it comes with the package
 
     @property
     def has_world(self) -> bool:
@@ -259,7 +259,7 @@ class _Builder:
             self.source.add_text(self.path, re.sub(rb"</mujoco\s*>\s*$", b"<default/></mujoco>", text).decode())
         safe = _is_tried(self.main.path, self.options)
         ours = not safe and self.options.safe is None
-        return Model(self.main, self.rules, self.source, safe, ours, self.files, light, self.options.load_seconds)
+        return Model(self.main, self.rules, self.source, safe, self.files, light, self.options.load_seconds, ours)
 
     def _add(self, path: str, document: Document, above: tuple[str, ...]) -> None:
         """Check a document and those that it includes."""
