@@ -43,6 +43,12 @@ class Assignable(LookedAt):
     def _is_taken(self, name: str, value: Any) -> bool:
         return _takes(self, name, value)
 
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        for name, value in state.items():
+            if callable(value):  # of which the short names have to hear
+                setattr(self, name, value)
+
     if not TYPE_CHECKING:  # to whom all names would be there
 
         def __getattr__(self, name: str) -> Any:

@@ -126,7 +126,7 @@ class Skeleton(Dynamics, TargetControl, ShortForms, SavedSkeleton, Assignable):
     def __setstate__(self, kept: dict[str, object]) -> None:
         if kept.get("_tau") is None:  # as release candidates saved it where none was set
             kept.pop("_tau", None)
-        self.__dict__.update(kept)
+        super().__setstate__(kept)
         self._handle.set_controlled(self._controller is not None)
 
     def set_position_limits_enforced(self, enforced: bool = True) -> None:

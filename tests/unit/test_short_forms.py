@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import pickle
+import subprocess
+import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -39,6 +44,21 @@ def test_an_object_that_changes_the_long_form_does(cubes: pydart2.World) -> None
     cube.set_positions = given.append
     cube.q = SEVEN
     assert given == [SEVEN] and not np.array_equal(cube.q, SEVEN)
+
+
+def seven() -> Any:
+    return SEVEN
+
+
+def test_a_process_that_unpickles_it_hears_of_it(cubes: pydart2.World, tmp_path: Path) -> None:
+    """It has never seen a function being set."""
+    cubes.skeletons[1].positions = seven
+    (tmp_path / "world").write_bytes(pickle.dumps(cubes))
+    code = "import pickle, sys; print(pickle.load(open(sys.argv[1], 'rb')).skeletons[1].q.tolist())"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])}
+    command = [sys.executable, "-c", code, tmp_path / "world"]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.stdout.strip() == str(SEVEN.tolist()), done.stderr
 
 
 def test_no_value_is_none(cubes: pydart2.World) -> None:
