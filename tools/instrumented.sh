@@ -8,6 +8,7 @@ cd "$(dirname "$0")/.."
 kind=$1
 shift
 folder=$PWD/build/$kind
+installed=$PWD/pydart2
 python=$PWD/${VENV:-.venv}/bin/python
 
 mkdir -p "$folder/pydart2"
@@ -15,18 +16,13 @@ git ls-files -z --cached --others --exclude-standard | xargs -0 cp -u --parents 
 ln -sfn "$PWD/${VENV:-.venv}" "$folder/.venv"
 cmake -S . -B "$folder/cmake" -DPYDART2_INSTRUMENT="$kind" -DPYDART2_OUTPUT_DIR="$folder/pydart2" \
   -DPython3_EXECUTABLE="$python" >"$folder/cmake.log"
-helper=$folder/pydart2/_try_load
-rm -f "$helper" # made anew: below it may become another
-cmake --build "$folder/cmake" --parallel "$(nproc)" >>"$folder/cmake.log"
+cmake --build "$folder/cmake" --parallel "$(nproc)" --target pydart2_api pydart2_stub >>"$folder/cmake.log"
 
 cd "$folder"
 export PYTHONPATH="$folder"
-if [ "$kind" != coverage ]; then
-  # The helper that tries models limits its memory, and the sanitizers want terabytes of addresses.
-  mv "$helper" "$helper"_plain
-  printf '#!/bin/sh\nunset LD_PRELOAD\nexec "$0"_plain "$@"\n' >"$helper"
-  chmod +x "$helper"
-fi
+# The helper that tries models is the installed one: it limits its memory, and the sanitizers want terabytes of addresses.
+printf '#!/bin/sh\nunset LD_PRELOAD\nexec "%s" "$@"\n' "$installed/_try_load" >pydart2/_try_load
+chmod +x pydart2/_try_load
 # Python is not instrumented, so the sanitizers come first.
 if [ "$kind" = sanitize ]; then
   export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so.6)"
