@@ -148,7 +148,6 @@ private:
   Numbers* shared_ = nullptr; ///< Where numbers are; null for the engine's.
   bool moved_ = false;        ///< In the last step.
   bool pushed_off_ = false;   ///< By impulses, in the last step.
-  bool impulses_clear_ = false;
   bool forces_at_rest_ = false;
 };
 

@@ -87,7 +87,6 @@ void TreeDynamics::clear_internal_forces()
 
 void TreeDynamics::look_again()
 {
-  impulses_clear_ = false;
   for (auto& link : links_) {
     const auto& others = link->body->*Body::others;
     link->others.assign(others.begin(), others.end());

@@ -1,5 +1,3 @@
-#include <utility>
-
 #include "dynamics/spatial_inline.hpp"
 #include "dynamics/tree_joints.hpp"
 
@@ -15,7 +13,6 @@ void TreeDynamics::apply_impulses()
     return;
   const double dt = skeleton_.getTimeStep();
   pushed_off_ = true;
-  impulses_clear_ = false;
   put_numbers(nullptr);
   for (auto& link : links_)
     link->joint->getRelativeTransform();
@@ -29,8 +26,6 @@ void TreeDynamics::apply_impulses()
 
 void TreeDynamics::clear_impulses()
 {
-  if (std::exchange(impulses_clear_, true))
-    return;
   for (auto& link : links_) {
     BodyNode& body = *link->body;
     for (auto* impulse : {&(body.*Body::velocity_change), &(body.*Body::bias_impulse), &(body.*Body::constraint_impulse),
