@@ -68,6 +68,60 @@ def test_same_bits(make: Callable[[], pydart2.World], steps: int) -> None:
                 assert a.com_linear_acceleration().tobytes() == b.com_linear_acceleration().tobytes()
 
 
+def many() -> pydart2.World:
+    """More than eight skeletons, of which some touch: with so many they share what only serves a step on the way."""
+    world = skel("fullbody1")
+    for place in range(8):
+        robot = world.add_skeleton(pydart2.data_path("sdf/atlas/atlas_v3_no_head.sdf"))
+        q = robot.q
+        q[0] = -np.pi / 2.0
+        q[3:6] = 0.6 * place, 0.02 * place, 0.5
+        robot.set_positions(q)
+    for place in range(3):
+        world.add_box((0.2, 0.2, 0.2), None, (0.1 * place, 0.19 * place, 3.0))
+    return world
+
+
+def disturb(world: pydart2.World, rng: np.random.Generator) -> object:
+    """One of the things that are done between steps, and what it reads."""
+    robot = world.skeletons[1 + rng.integers(len(world.skeletons) - 1)]
+    body, dof = robot.bodynodes[rng.integers(robot.nbodies)], robot.dofs[rng.integers(robot.ndofs)]
+    deeds: list[Callable[[], object]] = [
+        lambda: robot.set_forces(rng.uniform(-5.0, 5.0, robot.ndofs)),
+        lambda: robot.set_positions(robot.q + rng.uniform(-1e-3, 1e-3, robot.ndofs)),
+        lambda: robot.set_velocities(robot.dq * 0.9),
+        lambda: body.add_ext_force(rng.uniform(-20.0, 20.0, 3)),
+        lambda: body.set_friction_coeff(rng.uniform(0.0, 1.0)),
+        lambda: robot.set_mobile(not robot.is_mobile()),
+        lambda: body.set_mass(body.m * 1.01),
+        lambda: body.set_gravity_mode(not body.gravity_mode()),
+        lambda: dof.set_damping_coefficient(rng.uniform(0.0, 2.0)),
+        lambda: dof.set_armature(rng.uniform(0.0, 0.02)),
+        lambda: dof.set_constraint_impulse(0.01),
+        lambda: world.restore(world.snapshot()),
+        lambda: world.check_collision(),
+        lambda: [m.tobytes() for m in (robot.M, robot.invM, robot.c, robot.constraint_forces())],
+        lambda: [m.tobytes() for m in (body.J, body.dJ, body.C, body.dC, body.com_linear_acceleration())],
+        lambda: [shape.world_transform().tobytes() for shape in body.shapenodes],
+        lambda: robot.ddq.tobytes(),
+    ]
+    return deeds[rng.integers(len(deeds))]()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_many_skeletons_have_the_same_bits(seed: int) -> None:
+    """Whatever is done and read in between."""
+    worlds = [many() for _ in range(2)]
+    for world, name in zip(worlds, ("engine", "fast"), strict=True):
+        world.set_dynamics(name)
+    for i in range(60):
+        rngs = [np.random.default_rng((seed, i)) for _ in worlds]
+        for _ in range(3):
+            read = [disturb(world, rng) for world, rng in zip(worlds, rngs, strict=True)]
+            assert read[0] == read[1]
+        assert results(worlds[0], 3) == results(worlds[1], 3)
+
+
 def test_locked_joint_that_moves() -> None:
     """The engine stops it in the middle of its pass: that step is the engine's."""
     worlds = [chain() for _ in range(2)]
