@@ -14,6 +14,7 @@ import pickle
 import random
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import traceback
@@ -207,9 +208,10 @@ def run(seconds: float, first: int) -> tuple[Counter[str], list[str]]:
     for seed in range(first, first + max(1, round(seconds / SECONDS_PER_PROCESS))):
         command = [sys.executable, "-X", "faulthandler", __file__, "--work", str(seed)]
         try:
-            done = subprocess.run(
-                command, capture_output=True, text=True, errors="replace", env=ENVIRONMENT, timeout=120
-            )
+            with tempfile.TemporaryDirectory() as folder:  # for the files that calls write
+                done = subprocess.run(
+                    command, capture_output=True, text=True, errors="replace", env=ENVIRONMENT, cwd=folder, timeout=120
+                )
         except subprocess.TimeoutExpired:
             troubles.append(f"seed {seed}: it hangs")
             continue

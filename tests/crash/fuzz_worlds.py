@@ -15,6 +15,7 @@ import faulthandler
 import logging
 import subprocess
 import sys
+import tempfile
 import time
 import traceback
 import warnings
@@ -102,7 +103,10 @@ def run(calls: int, first: int) -> tuple[Counter[str], list[str]]:
     seed, end = first, time.monotonic() + MOST_SECONDS_IN_ALL
     while counts.total() < calls and seed - first <= 2 * calls and time.monotonic() < end:
         command = [sys.executable, "-X", "faulthandler", __file__, "--work", str(seed)]
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", env=ENVIRONMENT)
+        with tempfile.TemporaryDirectory() as folder:  # for the files that calls write
+            done = subprocess.run(
+                command, capture_output=True, text=True, errors="replace", env=ENVIRONMENT, cwd=folder
+            )
         for line in done.stdout.splitlines():
             word, _, rest = line.partition(" ")
             if word == "TROUBLE":
