@@ -47,7 +47,7 @@ public:
   void apply_impulses();
   void integrate_positions(double dt);
 
-  /// As Skeleton::clearConstraintImpulses(), where there may be any.
+  /// As Skeleton::clearConstraintImpulses().
   void clear_impulses();
 
   /// Whether no body, since accelerate(), is farther from the origin along an axis.
