@@ -69,7 +69,7 @@ def test_same_bits(make: Callable[[], pydart2.World], steps: int) -> None:
 
 
 def many() -> pydart2.World:
-    """More than eight skeletons, of which some touch: with so many they share what only serves a step on the way."""
+    """A dozen skeletons, of which some touch."""
     world = skel("fullbody1")
     for place in range(8):
         robot = world.add_skeleton(pydart2.data_path("sdf/atlas/atlas_v3_no_head.sdf"))
