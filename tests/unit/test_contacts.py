@@ -318,3 +318,17 @@ def test_contacts_of_cones_and_pyramids(tmp_path: Path, kind: str, tip: str) -> 
     assert np.diff(around).max() < np.pi / 2 + 1e-5  # the corners are a quarter apart
     world.step(500)
     np.testing.assert_allclose(world.skeletons[1].bodynodes[0].T[:3, 3], (3, 0.5, -2), atol=0.012)
+
+
+def test_normals_are_units() -> None:
+    """FCL leaves the normal of a few pairs of triangles as its memory was, which the engine's tangents do not survive."""
+    world = pydart2.World(0.001)
+    world.set_collision_detector("fcl")
+    world.add_soft_sphere(0.2, 1.0, [0, 0, 0])
+    cylinder = world.add_cylinder(0.05, 0.1, mass=1.0)
+    rng = np.random.default_rng(0)
+    for _ in range(4_600):
+        cylinder.q = np.concatenate([rng.normal(size=3) * 2, rng.normal(size=3) * 0.12])
+        world.check_collision()
+        lengths = np.array([np.linalg.norm(contact.normal) for contact in world.collision_result.contacts])
+        np.testing.assert_allclose(lengths, 1.0, atol=1e-6)

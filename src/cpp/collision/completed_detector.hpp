@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "collision/detector.hpp"
 #include "collision/missing_pairs.hpp"
@@ -23,7 +24,7 @@ public:
       return Engine::collide(group, part, result);
     };
     const bool any = engine_shapes ? engine(option) : missing_.collide(*this, *group, option, result, engine);
-    return result == nullptr ? any : any && leave_out_nan(*result);
+    return result == nullptr ? any : any && mend_normals(*result);
   }
 
   std::unique_ptr<dart::collision::CollisionGroup> createCollisionGroup() override
@@ -54,20 +55,27 @@ protected:
   void forget() { missing_.forget(); }
 
 private:
-  /// The engine leaves out contacts whose normal is zero; one of NaN, which ODE gives for a capsule in the middle of a
-  /// mesh, would end the process. Whether all that was found is not left out.
-  static bool leave_out_nan(dart::collision::CollisionResult& result)
+  /// What the engine would end the process for. It leaves out contacts whose normal is zero; one of NaN, which ODE gives for
+  /// a capsule in the middle of a mesh, is left out here. FCL leaves some of two meshes at any length: they are made units;
+  /// those that are units to single precision stay as they are. Whether any contact is left.
+  static bool mend_normals(dart::collision::CollisionResult& result)
   {
+    using dart::collision::Contact;
     const auto& now = result.getContacts();
-    const auto is_whole = [](const dart::collision::Contact& contact) { return contact.normal.allFinite(); };
-    if (std::all_of(now.begin(), now.end(), is_whole))
+    const auto is_sound = [](const Contact& contact) {
+      return std::abs(contact.normal.squaredNorm() - 1.0) < 5e-7 || Contact::isZeroNormal(contact.normal);
+    };
+    if (std::all_of(now.begin(), now.end(), is_sound))
       return true;
     const auto found = now;
     result.clear();
-    std::for_each(found.begin(), found.end(), [&](const auto& contact) {
-      if (is_whole(contact))
-        result.addContact(contact);
-    });
+    for (Contact contact : found) {
+      if (!contact.normal.allFinite())
+        continue;
+      if (!is_sound(contact))
+        contact.normal.stableNormalize();
+      result.addContact(contact);
+    }
     return result.isCollision();
   }
 
