@@ -77,7 +77,7 @@ RULES = [
         "normal",
         "contacts without a normal or with NaN are left out, tangents normalised; states are finite",
     ),
-    ("SoftContactConstraint", "D.col", "tangents of a unit normal, normalised; states are finite"),
+    ("SoftContactConstraint", "D.col", "normals are made units: test_contacts.py::test_normals_are_units"),
     ("Constraint.cpp", "isActive|isReactive", "the solver asks isActive() first, which says whether a body can move"),
     ("^JointConstraint", "bouncing", "signs of a product with a restitution, which is not negative"),
     (
