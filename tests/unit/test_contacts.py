@@ -321,7 +321,7 @@ def test_contacts_of_cones_and_pyramids(tmp_path: Path, kind: str, tip: str) -> 
 
 
 def test_normals_are_units() -> None:
-    """FCL leaves the normal of a few pairs of triangles as its memory was, which the engine's tangents do not survive."""
+    """FCL leaves that of a few pairs of triangles as its memory was, which the engine's tangents do not survive."""
     world = pydart2.World(0.001)
     world.set_collision_detector("fcl")
     world.add_soft_sphere(0.2, 1.0, [0, 0, 0])
