@@ -6,7 +6,7 @@ import inspect
 import logging
 from collections.abc import Callable, Iterator
 from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar, NoReturn
 
 from pydart2._native import LookedAt
 from pydart2.habits import answer, here
@@ -49,14 +49,10 @@ class Assignable(LookedAt):
             if callable(value):  # of which the short names have to hear
                 setattr(self, name, value)
 
-    if not TYPE_CHECKING:  # to whom all names would be there
-
-        def __getattr__(self, name: str) -> Any:
-            if name[:1] == "_":
-                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=None)
-            if hasattr(type(self), name):  # a property has raised an AttributeError of its own: once more, to be read
-                return object.__getattribute__(self, name)
-            raise AttributeError(answer(type(self), name), name=name, obj=None)  # else Python would guess too
+    def _answer(self, name: str) -> NoReturn:
+        """Raises the AttributeError of a name that is not there; with an object in it Python would guess too."""
+        cls: type = type(self)
+        raise AttributeError(answer(cls, name), name=name, obj=None)
 
 
 def _takes(owner: Assignable, name: str, value: Any) -> bool:

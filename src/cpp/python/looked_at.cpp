@@ -8,6 +8,7 @@ PyTypeObject* type = nullptr;
 PyObject* called_names = nullptr; // of attributes that are callable
 PyObject* unlooked_name = nullptr;
 PyObject* ask_name = nullptr;
+PyObject* answer_name = nullptr;
 
 bool is_private(PyObject* name)
 {
@@ -39,6 +40,18 @@ int set(PyObject* self, PyObject* name, PyObject* value)
   return taken > 0 ? PyObject_GenericSetAttr(self, name, value) : taken;
 }
 
+/// A property that raises an AttributeError of its own is heard; Python is asked only of names that nothing has.
+PyObject* get(PyObject* self, PyObject* name)
+{
+  PyObject* found = PyObject_GenericGetAttr(self, name);
+  const bool is_missing = found == nullptr && !is_private(name) && PyErr_ExceptionMatches(PyExc_AttributeError)
+    && _PyType_Lookup(Py_TYPE(self), name) == nullptr;
+  if (!is_missing)
+    return found;
+  PyErr_Clear();
+  return PyObject_CallMethodObjArgs(self, answer_name, name, nullptr);
+}
+
 } // namespace
 
 PyObject* make_type()
@@ -46,9 +59,11 @@ PyObject* make_type()
   called_names = PySet_New(nullptr);
   unlooked_name = PyUnicode_InternFromString("_unlooked");
   ask_name = PyUnicode_InternFromString("_is_taken");
+  answer_name = PyUnicode_InternFromString("_answer");
   PyType_Slot slots[] = {
+      {Py_tp_getattro, reinterpret_cast<void*>(get)},
       {Py_tp_setattro, reinterpret_cast<void*>(set)},
-      {Py_tp_doc, const_cast<char*>("What looks at the names of attributes that are set; the base of Assignable.")},
+      {Py_tp_doc, const_cast<char*>("What looks at names that are set, or not there; the base of Assignable.")},
       {0, nullptr}};
   PyType_Spec spec = {"pydart2.pydart2_api.LookedAt", 0, 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE, slots};
   PyObject* made = called_names == nullptr ? nullptr : PyType_FromSpec(&spec);
