@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Self
 
 
 class PydartError(RuntimeError):
@@ -25,6 +26,9 @@ class LoadError(PydartError, OSError):
     path: str | None = None
     line: int | None = None
     reason: str = ""
+
+    def __new__(cls, *args: object) -> Self:  # else RuntimeError's is found, by tblib (Dask) too, which refuses
+        return OSError.__new__(cls, *args)
 
     @classmethod
     def at(cls, path: str | None, line: int | None, reason: str) -> LoadError:

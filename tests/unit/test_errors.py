@@ -230,6 +230,7 @@ def test_name_not_found_travels(make: Callable[[Any], Any]) -> None:
 def test_errors_travel(error: type[Exception]) -> None:
     got = pickle.loads(pickle.dumps(error("what happened")))
     assert type(got) is error and str(got) == "what happened"
+    assert type(error.__new__(error, "made as Dask's workers do")) is error
 
 
 @pytest.mark.parametrize("index", [6, -7, 10**6, np.int64(6)])
