@@ -14,6 +14,8 @@ python=$PWD/${VENV:-.venv}/bin/python
 mkdir -p "$folder/pydart2"
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp -u --parents -t "$folder"
 ln -sfn "$PWD/${VENV:-.venv}" "$folder/.venv"
+mkdir -p "$folder/build"
+ln -sfn "$PWD"/build/cmake-* "$folder/build/" # whose library the programs of the tests link
 cmake -S . -B "$folder/cmake" -DPYDART2_INSTRUMENT="$kind" -DPYDART2_OUTPUT_DIR="$folder/pydart2" \
   -DPython3_EXECUTABLE="$python" >"$folder/cmake.log"
 cmake --build "$folder/cmake" --parallel "$(nproc)" --target pydart2_api pydart2_stub >>"$folder/cmake.log"

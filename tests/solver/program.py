@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import subprocess
+import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,6 +13,7 @@ from oracle.models import dart_data
 SOURCE = Path(__file__).parent
 ROOT = SOURCE.parents[1]
 BUILD = ROOT / "build" / "solver"
+CORE = ROOT / "build" / f"cmake-{sys.implementation.cache_tag}" / "libpydart2_core.a"
 
 DETECTORS = ("dart", "fcl", "bullet", "ode")
 VARIATIONS = ("plain", "joints", "surface", "joined", "pile")  # scenes.hpp
@@ -64,10 +66,12 @@ def _read(line: str) -> Scene:
 
 def build(jobs: int = 2) -> Path:
     """Compile what has changed since the last time; returns the folder of the programs."""
+    assert CORE.exists(), f"{CORE} is not there: pip install --no-build-isolation -e ."
     BUILD.mkdir(parents=True, exist_ok=True)
     with (BUILD / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # several test processes may start at once
-        for command in (["cmake", "-S", str(SOURCE), "-B", str(BUILD)], ["cmake", "--build", str(BUILD), f"-j{jobs}"]):
+        configure = ["cmake", "-S", str(SOURCE), "-B", str(BUILD), f"-DPYDART2_CORE={CORE}"]
+        for command in (configure, ["cmake", "--build", str(BUILD), f"-j{jobs}"]):
             done = subprocess.run(command, capture_output=True, text=True)
             assert done.returncode == 0, f"{' '.join(command)} failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}"
     return BUILD
