@@ -395,17 +395,17 @@ def test_no_reference_leaks(skel: pydart2.Skeleton) -> None:
 
 
 def test_no_memory_leaks(skel: pydart2.Skeleton) -> None:
-    for _ in range(50):
-        use(skel)
-    gc.collect()
     tracemalloc.start()
-    start = tracemalloc.get_traced_memory()[0]
-    for _ in range(300):
-        use(skel)
-    gc.collect()
-    grown = tracemalloc.get_traced_memory()[0] - start
+    grown = []
+    for _ in range(3):  # the first time caches are filled
+        gc.collect()
+        start = tracemalloc.get_traced_memory()[0]
+        for _ in range(300):
+            use(skel)
+        gc.collect()
+        grown.append(tracemalloc.get_traced_memory()[0] - start)
     tracemalloc.stop()
-    assert grown < 50_000, grown  # 300 leaked vectors would be 60 kB or more
+    assert min(grown) < 50_000, grown  # 300 leaked vectors would be 60 kB or more
 
 
 def test_names_do_not_keep_the_world_alive(tmp_path: Path) -> None:
