@@ -49,7 +49,7 @@ class Assignable(LookedAt):
             if callable(value):  # of which the short names have to hear
                 setattr(self, name, value)
 
-    def _answer(self, name: str) -> NoReturn:
+    def _raise_missing(self, name: str) -> NoReturn:
         """Raises the AttributeError of a name that is not there; with an object in it Python would guess too."""
         cls: type = type(self)
         raise AttributeError(answer(cls, name), name=name, obj=None)

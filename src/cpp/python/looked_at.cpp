@@ -8,7 +8,7 @@ PyTypeObject* type = nullptr;
 PyObject* called_names = nullptr; // of attributes that are callable
 PyObject* unlooked_name = nullptr;
 PyObject* ask_name = nullptr;
-PyObject* answer_name = nullptr;
+PyObject* missing_name = nullptr;
 
 bool is_private(PyObject* name)
 {
@@ -49,7 +49,7 @@ PyObject* get(PyObject* self, PyObject* name)
   if (!is_missing)
     return found;
   PyErr_Clear();
-  return PyObject_CallMethodObjArgs(self, answer_name, name, nullptr);
+  return PyObject_CallMethodObjArgs(self, missing_name, name, nullptr);
 }
 
 } // namespace
@@ -59,7 +59,7 @@ PyObject* make_type()
   called_names = PySet_New(nullptr);
   unlooked_name = PyUnicode_InternFromString("_unlooked");
   ask_name = PyUnicode_InternFromString("_is_taken");
-  answer_name = PyUnicode_InternFromString("_answer");
+  missing_name = PyUnicode_InternFromString("_raise_missing");
   PyType_Slot slots[] = {
       {Py_tp_getattro, reinterpret_cast<void*>(get)},
       {Py_tp_setattro, reinterpret_cast<void*>(set)},
