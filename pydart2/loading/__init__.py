@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import contextlib
 import logging
-import math
 import os
 import re
 from collections.abc import Iterable, Iterator
@@ -22,7 +21,7 @@ from pydart2.errors import LoadError
 from pydart2.loading import files
 from pydart2.loading.checks import check, relevant, rules_of
 from pydart2.loading.mass import settle_masses
-from pydart2.loading.mending import is_unbounded, mend, mend_fields, mirror
+from pydart2.loading.mending import mend, mend_fields, mirror
 from pydart2.loading.options import Missing as Missing
 from pydart2.loading.options import Options as Options
 from pydart2.loading.options import Reader as Reader
@@ -82,10 +81,7 @@ class Model(Readable):
             raise self.document.error(self.document.root, "it has no world")
         seconds, is_quick = self._try(world=True)
         with self._located():
-            world = WorldHandle.load(self.source, seconds, is_quick)
-        for index in range(world.num_skeletons()):
-            self._unbind(world, index)
-        return world
+            return WorldHandle.load(self.source, seconds, is_quick)
 
     def add_to(self, world: WorldHandle) -> int:
         """Add the skeleton to a world; returns its index there."""
@@ -96,20 +92,7 @@ class Model(Readable):
             raise self.document.error(self.document.root, f"it {what}")
         seconds, is_quick = self._try(world=False)
         with self._located():
-            index = world.add_skeleton(self.source, seconds, is_quick)
-        self._unbind(world, index)
-        return index
-
-    def _unbind(self, world: WorldHandle, index: int) -> None:
-        """Take away the limits that stand for none."""
-        if self.document.root.tag not in ("robot", "world"):
-            return
-        skeleton = world.skeleton(index)
-        for dof in (skeleton.dof(i) for i in range(skeleton.num_dofs())):
-            for kind in ("position", "velocity", "force"):
-                for bound, none in (("lower", -math.inf), ("upper", math.inf)):
-                    if is_unbounded(getattr(dof, f"{kind}_{bound}_limit")()):
-                        getattr(dof, f"set_{kind}_{bound}_limit")(none)
+            return world.add_skeleton(self.source, seconds, is_quick)
 
     def _try(self, world: bool) -> tuple[float, bool]:
         """In a helper process; how long the reading may take then, s of processor time, and whether it is known to be

@@ -198,6 +198,9 @@ def _mend_limit(document: Document, limit: Element, kind: str, say: Say, bounds_
         say(document, limit, f"{joint}: its <limit> has no {' and no '.join(missing)}; there is no such limit")
         for name in missing:
             document.set(limit, f"@{name}", UNBOUNDED)
+    for name in ("lower", "upper", "effort", "velocity") if kind == "urdf" else ():
+        if math.isinf(value := float(limit.get(f"@{name}") or 0.0)):
+            document.set(limit, f"@{name}", UNBOUNDED if value > 0.0 else "-" + UNBOUNDED)
     if lower is not None and upper is not None:
         if float(lower) <= float(upper):
             return
@@ -223,8 +226,3 @@ def _mend_mimic(document: Document, mimic: Element, joint: Element, say: Say) ->
     elif leader is not None and leader.get("@type") == "fixed":
         say(document, mimic, f"{joint} mimics {leader}, which is fixed: it moves by itself")
         document.remove([mimic])
-
-
-def is_unbounded(limit: float) -> bool:
-    """Whether a limit is what mend() and the writers of files write for none."""
-    return abs(limit) == float(UNBOUNDED)

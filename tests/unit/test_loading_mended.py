@@ -191,6 +191,27 @@ def test_bounds_that_are_not_stated_do_not_lock(kind: str, caplog: Any) -> None:
     assert (engine.q_lower[6], engine.q_upper[6]) == (0.0, 0.0)
 
 
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+@pytest.mark.parametrize(
+    ("bounds", "low", "high"),
+    [
+        ("lower='-inf' upper='-0.5'", -math.inf, -0.5),
+        ("lower='0.5' upper='1.7976931348623157e308'", 0.5, math.inf),
+        ("lower='-1e300' upper='-0.5'", -math.inf, -0.5),
+    ],
+)
+def test_a_number_that_stands_for_no_bound(kind: str, bounds: str, low: float, high: float) -> None:
+    """The engine starts in the middle between two bounds: at -9e307, where a turn has no sine."""
+    world = World(0.001)
+    dof = world.add_skeleton(arm(f"<limit {bounds} effort='inf' velocity='8'/>", kind)).dofs[-1]
+    assert (dof.position_lower_limit(), dof.position_upper_limit()) == (low, high)
+    assert (dof.force_upper_limit(), dof.velocity_upper_limit()) == (math.inf, 8.0)
+    nearest_to_zero = min(low, high, key=abs)
+    assert dof.position() == dof.rest_position() == nearest_to_zero
+    world.reset()
+    assert dof.position() == nearest_to_zero
+
+
 @pytest.mark.parametrize("copied", [lambda w: w, lambda w: w.clone(), lambda w: pickle.loads(pickle.dumps(w))])
 def test_enforced_limits_hold_in_copies(copied: Any) -> None:
     world = World(0.001)

@@ -60,6 +60,7 @@ struct Bounds
   {
     return (low.array() <= other.low.array()).all() && (other.high.array() <= high.array()).all();
   }
+  bool is_finite() const { return low.allFinite() && high.allFinite(); }
   /// 0 where they overlap.
   double distance(const Bounds& other) const
   {

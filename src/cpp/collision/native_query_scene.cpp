@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/errors.hpp"
 #include "collision/native_pairs.hpp"
 
 namespace pydart2::native {
@@ -31,6 +32,8 @@ void QueryScene::set(const std::vector<const dart::dynamics::ShapeNode*>& shapes
       unbounded_.push_back(static_cast<int>(i));
     } else {
       boxes[i] = items_[i].bounds = bounds_of(made, pose);
+      if (!boxes[i].is_finite())
+        throw Error(Kind::engine, "the position of shape '" + shapes[i]->getName() + "' is not finite");
       leaves.push_back(static_cast<int>(i));
     }
   }

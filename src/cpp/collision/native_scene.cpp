@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <dart/dynamics/ShapeNode.hpp>
 
+#include "base/errors.hpp"
 #include "collision/native_pairs.hpp"
 #include "engine/collision_filter.hpp"
 
@@ -15,6 +16,8 @@ double margin_of(const Geometry& geometry)
 {
   return std::min(5e-4, 0.02 * geometry.size);
 }
+
+const Bounds nothing{Vector::Constant(1.0), Vector::Constant(-1.0)}; ///< Contains nothing.
 
 } // namespace
 
@@ -49,7 +52,7 @@ void Scene::set_objects(const std::vector<Object*>& objects)
     watched_.push_back(static_cast<int>(items_.size()));
     items_.push_back({object, body, skeleton, place, bounded, {}, false, Pose::Identity(), true, Pose::Identity(), {}, {}, false, false});
     items_.back().pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN()); // equal to no pose
-    items_.back().wide = {Vector::Constant(1.0), Vector::Constant(-1.0)}; // contains nothing
+    items_.back().wide = nothing;
   }
 }
 
@@ -157,6 +160,21 @@ void Scene::widen(Item& item)
   item.escaped = true;
 }
 
+/// The tree has no place for what is nowhere. Whoever looks once more finds all out of date.
+void Scene::check_places()
+{
+  const auto nowhere = [this](int index) { return !item(index).wide.is_finite(); };
+  const auto found = std::find_if(escaped_.begin(), escaped_.end(), nowhere);
+  if (found == escaped_.end())
+    return;
+  for (auto& item : items_)
+    item.wide = nothing;
+  pairs_.clear();
+  built_ = all_placed_ = false;
+  const auto* body = item(*found).body;
+  throw Error(Kind::engine, "the position of " + (body == nullptr ? "a shape" : "body '" + body->getName() + "'") + " is not finite");
+}
+
 void Scene::update_tree()
 {
   if (built_ && !tree_.worn()) {
@@ -181,6 +199,7 @@ void Scene::update()
   place();
   if (escaped_.empty())
     return;
+  check_places();
   update_tree();
   const auto stale = [&](const Pair& pair) { return item(pair.first).escaped || item(pair.second).escaped; };
   pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), stale), pairs_.end());

@@ -101,6 +101,7 @@ private:
   void look_at_motion(Item& item);
   void widen(Item& item);
   void update();
+  void check_places();
   void update_tree();
   void find_pairs_of(int index);
   void find_watched_pairs();

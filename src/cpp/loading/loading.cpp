@@ -8,8 +8,10 @@
 #include <dart/utils/mjcf/MjcfParser.hpp>
 #include <dart/utils/sdf/SdfParser.hpp>
 #include <dart/utils/urdf/DartLoader.hpp>
+#include <limits>
 #include <utility>
 
+#include "base/checks.hpp"
 #include "base/errors.hpp"
 #include "base/messages.hpp"
 #include "engine/late_ode.hpp"
@@ -61,7 +63,8 @@ void check_body(const BodyNode& body)
   if (!joint.getTransformFromParentBodyNode().matrix().allFinite()
       || !joint.getTransformFromChildBodyNode().matrix().allFinite())
     refuse("the transform of its joint '" + joint.getName() + "' is not finite");
-  if (!joint.getPositions().allFinite() || !joint.getVelocities().allFinite())
+  const auto finite = [](const Eigen::VectorXd& values) { return (values.array().abs() <= check::huge).all(); };
+  if (!finite(joint.getPositions()) || !finite(joint.getVelocities()))
     refuse("the position or velocity of its joint '" + joint.getName() + "' is not finite");
   for (const auto* node : body.getShapeNodes())
     if (!node->getRelativeTransform().matrix().allFinite())
@@ -121,13 +124,42 @@ dart::utils::DartLoader urdf_loader(const ModelSource& source)
   return dart::utils::DartLoader(dart::utils::DartLoader::Options(make_retriever(source)));
 }
 
+/// urdfdom reads no "inf", so that a number as large stands for it. Between two bounds the engine starts in the middle.
+void read_infinite_limits(Skeleton& skeleton)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto lower = [](double limit) { return limit < -check::huge ? -infinity : limit; };
+  const auto upper = [](double limit) { return limit > check::huge ? infinity : limit; };
+  for (auto* dof : skeleton.getDofs()) {
+    dof->setPositionLimits(lower(dof->getPositionLowerLimit()), upper(dof->getPositionUpperLimit()));
+    dof->setVelocityLimits(lower(dof->getVelocityLowerLimit()), upper(dof->getVelocityUpperLimit()));
+    dof->setForceLimits(lower(dof->getForceLowerLimit()), upper(dof->getForceUpperLimit()));
+    if (std::abs(dof->getInitialPosition()) <= check::huge)
+      continue;
+    const double nearest = std::min(std::max(0.0, dof->getPositionLowerLimit()), dof->getPositionUpperLimit());
+    dof->setInitialPosition(nearest);
+    dof->setRestPosition(nearest);
+    dof->setPosition(nearest);
+  }
+}
+
+SkeletonPtr parse_urdf(const ModelSource& source)
+{
+  const auto skeleton = urdf_loader(source).parseSkeleton(uri_of(source));
+  if (skeleton)
+    read_infinite_limits(*skeleton);
+  return skeleton;
+}
+
 /// Where the file places its robots they are after a reset, too.
 WorldPtr parse_urdf_world(const ModelSource& source)
 {
   const auto world = urdf_loader(source).parseWorld(uri_of(source));
-  for (std::size_t i = 0; world && i < world->getNumSkeletons(); ++i)
+  for (std::size_t i = 0; world && i < world->getNumSkeletons(); ++i) {
+    read_infinite_limits(*world->getSkeleton(i));
     for (auto* dof : world->getSkeleton(i)->getDofs())
       dof->setInitialPosition(dof->getPosition());
+  }
   return world;
 }
 
@@ -173,7 +205,7 @@ SkeletonPtr parse_skeleton(const ModelSource& source)
   if (source.kind() == "sdf")
     return SdfParser::readSkeleton(uri, SdfParser::Options(retriever));
   if (source.kind() == "urdf")
-    return urdf_loader(source).parseSkeleton(uri);
+    return parse_urdf(source);
   if (source.kind() == "vsk")
     return VskParser::readSkeleton(uri, VskParser::Options(retriever));
   if (source.kind() == "mjcf")
