@@ -27,13 +27,12 @@ void TreeDynamics::clear_impulses()
     for (auto* impulse : {&(body.*Body::velocity_change), &(body.*Body::bias_impulse), &(body.*Body::constraint_impulse),
                           &(body.*Body::impulse)})
       impulse->setZero();
-    if (!is_kinematic(*link->joint))
-      visit(*link, [](auto& joint) {
-        using Space = SpaceOf<decltype(joint)>;
-        (joint.*Generic<Space>::constraint_impulses).setZero();
-        (joint.*Generic<Space>::total_impulse).setZero();
-        (joint.*Generic<Space>::velocity_change).setZero();
-      });
+    visit(*link, [](auto& joint) {
+      using Space = SpaceOf<decltype(joint)>;
+      (joint.*Generic<Space>::constraint_impulses).setZero();
+      (joint.*Generic<Space>::total_impulse).setZero();
+      (joint.*Generic<Space>::velocity_change).setZero();
+    });
   }
 }
 
