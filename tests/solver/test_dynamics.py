@@ -98,6 +98,7 @@ def disturb(world: pydart2.World, rng: np.random.Generator) -> object:
         lambda: dof.set_damping_coefficient(rng.uniform(0.0, 2.0)),
         lambda: dof.set_armature(rng.uniform(0.0, 0.02)),
         lambda: dof.set_constraint_impulse(0.01),
+        lambda: dof.joint.set_actuator_type(int(rng.integers(6))),
         lambda: world.restore(world.snapshot()),
         lambda: world.check_collision(),
         lambda: [m.tobytes() for m in (robot.M, robot.invM, robot.c, robot.constraint_forces())],
@@ -120,6 +121,24 @@ def test_many_skeletons_have_the_same_bits(seed: int) -> None:
             read = [disturb(world, rng) for world, rng in zip(worlds, rngs, strict=True)]
             assert read[0] == read[1]
         assert results(worlds[0], 3) == results(worlds[1], 3)
+
+
+@pytest.mark.parametrize("kind", [Joint.ACCELERATION, Joint.VELOCITY, Joint.LOCKED])
+@pytest.mark.parametrize("root", ["free", "ball"])
+def test_motion_that_is_prescribed_in_a_contact(root: str, kind: int) -> None:
+    """What the last impulses have changed is not taken once more."""
+    worlds = [pydart2.World(0.001) for _ in range(2)]
+    for world, name in zip(worlds, ("engine", "fast"), strict=True):
+        world.set_dynamics(name)
+        world.add_ground()
+        robot = world.add_empty_skeleton("robot")
+        robot.add_body("foot", joint=root, position=(0, 0.049, 0)).add_box((0.1, 0.1, 0.1), mass=1.0)
+        toe = robot.add_body("toe", "foot", "prismatic", axis=(0, 1, 0), position=(0.3, 0, 0))
+        toe.add_box((0.1, 0.1, 0.1), mass=1.0)
+        world.step(3)
+        assert world.contacts_between(world.skeletons[0], toe)
+        robot.joints[0].set_actuator_type(kind)
+    assert results(worlds[0], 20) == results(worlds[1], 20)
 
 
 def test_locked_joint_that_moves() -> None:

@@ -333,3 +333,28 @@ def test_what_blew_up_is_given_a_state_first() -> None:
     skel.detach("hand")
     world.step()
     assert np.isfinite(world.x).all()
+
+
+@pytest.mark.parametrize("way", ["remove_body", "detach", "attach"])
+@pytest.mark.parametrize(("stays", "gone"), [("cart", "arm"), ("arm", "cart")])
+def test_what_stays_of_two_trees_has_its_numbers(way: str, stays: str, gone: str) -> None:
+    """Which were read before, and whose state does not change."""
+    joints = {"cart": "free", "arm": "ball"}
+    alone = pydart.World(0.001).add_empty_skeleton("alone")
+    add(alone, stays, None, joints[stays])
+    world = pydart.World(0.001)
+    both, other = world.add_empty_skeleton("both"), world.add_empty_skeleton("other")
+    for name, joint in joints.items():
+        add(both, name, None, joint)
+    for skel in (alone, both):
+        skel.body(stays).add_ext_torque((1.0, 2.0, 3.0))
+        skel.dq = np.full(skel.ndofs, 0.3)
+        assert skel.M.any() and skel.c.any() and skel.invM.any() and skel.external_forces().any()
+    if way == "attach":
+        other.attach(both.body(gone))
+    else:
+        getattr(both, way)(gone)
+    for name in ("M", "invM", "c"):
+        assert np.array_equal(getattr(both, name), getattr(alone, name)), name
+    for name in ("external_forces", "gravity_forces", "coriolis_forces", "aug_mass_matrix"):
+        assert np.array_equal(getattr(both, name)(), getattr(alone, name)()), name

@@ -8,6 +8,7 @@
 #include "collision/detector.hpp"
 #include "contact/fast_solver.hpp"
 #include "dynamics/tree_dynamics.hpp"
+#include "engine/tree_members.hpp"
 #include "state/contact.hpp"
 #include "state/sleeping.hpp"
 #include "state/state_vector.hpp"
@@ -139,6 +140,10 @@ void WorldRecord::tree_changed(SkeletonRecord& skeleton)
 {
   ++skeleton.structure;
   ++changes;
+  auto& changed = *skeleton.skeleton; // where a tree has gone the engine has matrices of zeros, and takes them for known
+  engine::SkeletonMembers::all(changed) = {};
+  for (std::size_t i = 0; i < changed.getNumTrees(); ++i)
+    engine::SkeletonMembers::tree(changed, i) = {};
   skeleton.shapes_reach.reset();
   plan.note_change();
   skeleton.limits_checked = false;
