@@ -199,8 +199,8 @@ def _mend_limit(document: Document, limit: Element, kind: str, say: Say, bounds_
         for name in missing:
             document.set(limit, f"@{name}", UNBOUNDED)
     for name in ("lower", "upper", "effort", "velocity") if kind == "urdf" else ():
-        if math.isinf(value := float(limit.get(f"@{name}") or 0.0)):
-            document.set(limit, f"@{name}", UNBOUNDED if value > 0.0 else "-" + UNBOUNDED)
+        if math.isinf(number := float(limit.get(f"@{name}") or 0.0)):
+            document.set(limit, f"@{name}", UNBOUNDED if number > 0.0 else "-" + UNBOUNDED)
     if lower is not None and upper is not None:
         if float(lower) <= float(upper):
             return
