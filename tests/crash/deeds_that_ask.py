@@ -154,7 +154,7 @@ def use_kept(h: Hands) -> None:
 
 @deed
 def copies_go_on_alike(h: Hands) -> None:
-    """A copy steps bit for bit as its original does, or both fail."""
+    """A copy has the numbers of its original, and steps bit for bit as it does, or both fail."""
     world = h.world
     manner = h.random.randrange(4)
     makers: list[Callable[[], pydart2.World]] = [
@@ -167,8 +167,9 @@ def copies_go_on_alike(h: Hands) -> None:
         other = makers[manner]()
     except pickle.PicklingError:  # of a controller that has no name
         return
-    n = h.random.randrange(1, 12)
-    compare(world, f"a copy (manner {manner})", end_of(world, n), end_of(other, n))
+    n, copied = h.random.randrange(1, 12), f"a copy (manner {manner})"
+    compare(world, f"what is read of {copied}", numbers_of(world), numbers_of(other))
+    compare(world, copied, end_of(world, n), end_of(other, n))
     if h.flip():
         h.keep(world)
         h.world = other
@@ -183,8 +184,13 @@ def compare(world: pydart2.World, what: str, one: Any, other: Any) -> None:
     how += [f"sleeping {len(world.sleepers())}"] if world.sleeping_options() else []
     soft = sum(isinstance(body, pydart2.SoftBodyNode) for skel in world.skeletons for body in skel.bodynodes)
     raise Wrong(
-        f"{what} steps otherwise, by {far:.3g}: {how}, soft {soft}, {[type(c).__name__ for c in world.constraints]}"
+        f"{what} differs, by {far:.3g}: {how}, soft {soft}, {[type(c).__name__ for c in world.constraints]}"
     )
+
+
+def numbers_of(world: pydart2.World) -> Any:
+    """Of all skeletons, what the engine or we keep until something changes."""
+    return np.concatenate([np.ravel(numbers) for skel in world.skeletons for numbers in (skel.M, skel.c, skel.C)])
 
 
 def end_of(world: pydart2.World, n: int) -> Any:
