@@ -183,9 +183,7 @@ def compare(world: pydart2.World, what: str, one: Any, other: Any) -> None:
     how += [f"{name}={getattr(world, name)()}" for name in ("warm_start", "contact_reduction", "is_deterministic")]
     how += [f"sleeping {len(world.sleepers())}"] if world.sleeping_options() else []
     soft = sum(isinstance(body, pydart2.SoftBodyNode) for skel in world.skeletons for body in skel.bodynodes)
-    raise Wrong(
-        f"{what} differs, by {far:.3g}: {how}, soft {soft}, {[type(c).__name__ for c in world.constraints]}"
-    )
+    raise Wrong(f"{what} differs, by {far:.3g}: {how}, soft {soft}, {[type(c).__name__ for c in world.constraints]}")
 
 
 def numbers_of(world: pydart2.World) -> Any:
