@@ -186,6 +186,17 @@ def compare(world: pydart2.World, what: str, one: Any, other: Any) -> None:
     raise Wrong(f"{what} differs, by {far:.3g}: {how}, soft {soft}, {[type(c).__name__ for c in world.constraints]}")
 
 
+@deed
+def engine_goes_on_alike(h: Hands) -> None:
+    """Our dynamics step bit for bit as the engine's, where the solver and the integrator are not our own."""
+    world = h.world
+    if world.constraint_solver() == "iterative" or world.integrator() != "engine" or world.dynamics() != "fast":
+        return
+    other, n = world.clone(), h.random.randrange(1, 6)
+    other.set_dynamics("engine")
+    compare(world, "the engine", end_of(world, n), end_of(other, n))
+
+
 def numbers_of(world: pydart2.World) -> Any:
     """Of all skeletons, what the engine or we keep until something changes."""
     return np.concatenate([np.ravel(numbers) for skel in world.skeletons for numbers in (skel.M, skel.c, skel.C)])
