@@ -190,7 +190,8 @@ def compare(world: pydart2.World, what: str, one: Any, other: Any) -> None:
 def engine_goes_on_alike(h: Hands) -> None:
     """Our dynamics step bit for bit as the engine's, where the solver and the integrator are not our own."""
     world = h.world
-    if world.constraint_solver() == "iterative" or world.integrator() != "engine" or world.dynamics() != "fast":
+    ours = world.constraint_solver() == "iterative" or world.integrator() != "engine"
+    if ours or world.dynamics() != "fast" or world.sleepers():  # who would wake
         return
     other, n = world.clone(), h.random.randrange(1, 6)
     other.set_dynamics("engine")
