@@ -12,7 +12,7 @@ from pydart2.exporting.numbers import Element, add, attributes, fixed_angles, is
 from pydart2.exporting.parts import Array, DofPart, JointPart, LinkPart, ShapePart, SkeletonPart, WorldPart
 from pydart2.exporting.reshape import GROUND, note_order, put_frames_at_joints, refuse_ground, split_joints, start_of
 from pydart2.exporting.shapes import Use, mesh_file, mesh_scale, note_surfaces, uses
-from pydart2.loading.mending import UNBOUNDED
+from pydart2.loading.mending import infinite_limit
 
 _TYPES = {"weld": "fixed", "revolute": "revolute", "prismatic": "prismatic", "free": "floating", "planar": "planar"}
 _FREE_ROOT = "rootJoint"  # of which the engine makes the joint of a root without one
@@ -173,4 +173,4 @@ def _numbers(element: Element, joint: JointPart, dof: DofPart, endless: bool, lo
 
 
 def _bounded(value: float) -> str:
-    return text(value) if math.isfinite(value) else ("-" if value < 0.0 else "") + UNBOUNDED
+    return text(value) if math.isfinite(value) else infinite_limit(value)

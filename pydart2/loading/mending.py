@@ -187,6 +187,11 @@ def _z_axis(roll: float, pitch: float, yaw: float) -> tuple[float, float, float]
     )
 
 
+def infinite_limit(sign: float) -> str:
+    """How URDF says that a limit is inf or -inf."""
+    return UNBOUNDED if sign > 0.0 else "-" + UNBOUNDED
+
+
 def _mend_limit(document: Document, limit: Element, kind: str, say: Say, bounds_as_engine: bool) -> None:
     """Bounds the wrong way round are none; in URDF, neither are two that are not there, nor effort and velocity."""
     joint = limit.ancestor("joint")
@@ -200,7 +205,7 @@ def _mend_limit(document: Document, limit: Element, kind: str, say: Say, bounds_
             document.set(limit, f"@{name}", UNBOUNDED)
     for name in ("lower", "upper", "effort", "velocity") if kind == "urdf" else ():
         if math.isinf(number := float(limit.get(f"@{name}") or 0.0)):
-            document.set(limit, f"@{name}", UNBOUNDED if number > 0.0 else "-" + UNBOUNDED)
+            document.set(limit, f"@{name}", infinite_limit(number))
     if lower is not None and upper is not None:
         if float(lower) <= float(upper):
             return
