@@ -100,6 +100,24 @@ def test_copies_of_what_was_built_go_on_as_the_original(detector: str) -> None:
     np.testing.assert_array_equal(copied.x, world.x)
 
 
+@pytest.mark.parametrize("detector", ["fcl", "bullet", "ode", "dart", "native"])
+def test_copies_made_after_one_of_several_roots_got_another_joint(detector: str) -> None:
+    """Its tree is the last then, in the engine, too."""
+    world = pydart2.World(0.001, up="z")
+    world.set_collision_detector(detector)
+    floor = world.add_empty_skeleton("floor")
+    for i in range(3):
+        floor.add_body(f"root{i}", joint="weld", position=(0.5 * i, 0.0, 0.0)).add_box((0.5, 1.0, 0.1), mass=1.0)
+    for i in range(4):
+        world.add_box((0.3, 0.3, 0.3), 1.0, (0.25 + 0.25 * i, 0.0, 0.199))
+    world.step(5)
+    floor.set_root_joint_to_free()
+    copied = world.clone()
+    for one in (world, copied):
+        one.step(20)
+    np.testing.assert_array_equal(copied.x, world.x)
+
+
 @pytest.mark.parametrize("detector", ["fcl", "bullet", "native"])
 def test_copies_made_right_after_something_came_beside_soft_bodies(detector: str) -> None:
     """The skin has been pressed in, and the detector meets the newcomer at the copy."""

@@ -187,6 +187,8 @@ void SkeletonHandle::tree_changed(RootChange change)
 {
   if (!skeleton_.skeleton->built)
     skeleton_.skeleton->root_changes.push_back(change);
+  if (skeleton().getNumTrees() > 1)
+    skeleton_.world->shapes_changed = true; // the tree with the new root is the last now
   skeleton_.world->tree_changed(*skeleton_.skeleton);
 }
 
