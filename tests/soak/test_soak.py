@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import multiprocessing
 import os
 import pickle
 from collections.abc import Callable
@@ -111,37 +112,34 @@ def test_errors(tmp_path: Path) -> None:
     assert grown < 1.0
 
 
-def falls(starts: range, dt: float, seconds: float) -> tuple[int, int]:
-    """Of the limp human, from random poses, turns and masses: how many blow up, and how many then lie still."""
-    blown = still = 0
-    for seed in starts:
-        rng = np.random.default_rng(seed)
-        world = pydart2.World(dt, pydart2.data_path("skel/fullbody1.skel"))
-        world.set_dynamics("fast")
-        world.disable_recording()
-        human = world.skeletons[1]
-        q = np.asarray(human.q)
-        q[:3], q[6:] = rng.uniform(-1.0, 1.0, 3), q[6:] + rng.uniform(-0.5, 0.5, human.ndofs - 6)
-        human.q, human.dq = q, rng.uniform(-1.0, 1.0, human.ndofs)
-        for body in human.bodynodes if seed % 2 else ():
-            body.set_mass(body.m * rng.uniform(0.5, 2.0))
-        fastest = 0.0
-        try:
-            while world.t < seconds:
-                world.step(20)
-                fastest = max(fastest, abs(human.dq).max()) if world.t > seconds - 2.0 else 0.0
-        except pydart2.SimulationError:
-            blown += 1
-        else:
-            still += fastest < 0.05
-    return blown, still
+def falls(start: int, dt: float, seconds: float) -> float:
+    """When the limp human from a random pose, turn and mass moved last, s; it gets 10 s more to lie still for 2 s."""
+    rng = np.random.default_rng(start)
+    world = pydart2.World(dt, pydart2.data_path("skel/fullbody1.skel"))
+    world.set_dynamics("fast")
+    world.disable_recording()
+    human = world.skeletons[1]
+    q = np.asarray(human.q)
+    q[:3], q[6:] = rng.uniform(-1.0, 1.0, 3), q[6:] + rng.uniform(-0.5, 0.5, human.ndofs - 6)
+    human.q, human.dq = q, rng.uniform(-1.0, 1.0, human.ndofs)
+    for body in human.bodynodes if start % 2 else ():
+        body.set_mass(body.m * rng.uniform(0.5, 2.0))
+    moved = 0.0
+    while world.t < seconds or (moved > world.t - 2.0 and world.t < seconds + 10.0):
+        world.step(20)
+        if abs(human.dq).max() >= 0.05:
+            moved = world.t
+    return moved
 
 
 @pytest.mark.parametrize(("count", "seconds"), [(int(os.environ.get("LIMP_STARTS", "1000")), 5.0), (20, 60.0)])
 @pytest.mark.parametrize("dt", [1e-3, 2e-3])
 def test_a_limp_human_falls_down_and_lies(dt: float, count: int, seconds: float) -> None:
-    """None blows up, and nearly all lie still for the last 2 s: of 5 s, a few tip over once more after the third."""
-    blown, still = falls(range(count), dt, seconds)
-    print(f"{count} falls of {seconds:g} s at {1e3 * dt:g} ms: {blown} blew up, {still} lie still for the last 2 s")
-    assert blown == 0
-    assert still >= 0.9 * count
+    """None blows up, and all lie still: for the last 2 s, but for few of 5 s that tip over again after the third."""
+    with multiprocessing.Pool() as pool:
+        moved = np.array(pool.starmap(falls, [(start, dt, seconds) for start in range(count)], chunksize=1))
+    still = np.count_nonzero(moved <= seconds - 2.0)
+    print(f"{count} falls of {seconds:g} s at {1e3 * dt:g} ms: none blew up, {still} lie still for the last 2 s")
+    print(f"  the last to move did so at {moved.max():.2f} s")
+    assert still >= 0.98 * count
+    assert moved.max() <= seconds + 8.0
