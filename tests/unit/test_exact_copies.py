@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import pickle
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -100,14 +101,21 @@ def test_copies_of_what_was_built_go_on_as_the_original(detector: str) -> None:
     np.testing.assert_array_equal(copied.x, world.x)
 
 
+@pytest.mark.parametrize("is_loaded", [False, True])
 @pytest.mark.parametrize("detector", ["fcl", "bullet", "ode", "dart", "native"])
-def test_copies_made_after_one_of_several_roots_got_another_joint(detector: str) -> None:
+def test_copies_made_after_one_of_several_roots_got_another_joint(
+    detector: str, is_loaded: bool, tmp_path: Path
+) -> None:
     """Its tree is the last then, in the engine, too."""
     world = pydart2.World(0.001, up="z")
     world.set_collision_detector(detector)
     floor = world.add_empty_skeleton("floor")
     for i in range(3):
         floor.add_body(f"root{i}", joint="weld", position=(0.5 * i, 0.0, 0.0)).add_box((0.5, 1.0, 0.1), mass=1.0)
+    if is_loaded:
+        floor.save(tmp_path / "floor.skel")
+        world.remove_skeleton(floor)
+        floor = world.add_skeleton(tmp_path / "floor.skel")
     for i in range(4):
         world.add_box((0.3, 0.3, 0.3), 1.0, (0.25 + 0.25 * i, 0.0, 0.199))
     world.step(5)

@@ -185,10 +185,7 @@ void SkeletonHandle::set_root_joint_to_free()
 
 void SkeletonHandle::tree_changed(RootChange change)
 {
-  if (!skeleton_.skeleton->built)
-    skeleton_.skeleton->root_changes.push_back(change);
-  if (skeleton().getNumTrees() > 1)
-    skeleton_.world->shapes_changed = true; // the tree with the new root is the last now
+  note_root_change(*skeleton_.world, *skeleton_.skeleton, change);
   skeleton_.world->tree_changed(*skeleton_.skeleton);
 }
 

@@ -107,14 +107,14 @@ void add_to(WorldRecord& world, const std::string& source)
   world.add(load_skeleton(model), model.kind() == "built" ? std::string() : source);
 }
 
-void change_root(SkeletonRecord& record, char change)
+void change_root(WorldRecord& world, SkeletonRecord& record, char change)
 {
   constexpr decltype(&change_root_to_weld) changes[] = {change_root_to_trans_and_euler, change_root_to_weld, change_root_to_free};
   const std::size_t which = std::string(letter_of).find(change);
   if (which == std::string::npos)
     Archive::refuse();
   changes[which](*record.skeleton);
-  record.root_changes.push_back(static_cast<RootChange>(which));
+  note_root_change(world, record, static_cast<RootChange>(which));
 }
 
 void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
@@ -135,7 +135,7 @@ void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
     if (index >= world.skeletons.size())
       Archive::refuse();
     for (const char change : plan[i + 2])
-      change_root(*world.skeletons[index], change);
+      change_root(world, *world.skeletons[index], change);
   }
 }
 
@@ -148,6 +148,14 @@ void mark_built(WorldRecord& world, SkeletonRecord& record)
   world.shapes_changed = true;
   record.built = true;
   record.root_changes.clear();
+}
+
+void note_root_change(WorldRecord& world, SkeletonRecord& record, RootChange change)
+{
+  if (!record.built)
+    record.root_changes.push_back(change);
+  if (record.skeleton->getNumTrees() > 1)
+    world.shapes_changed = true;
 }
 
 Blueprint blueprint_of(WorldRecord& world)
