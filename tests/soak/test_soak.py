@@ -135,11 +135,10 @@ def falls(start: int, dt: float, seconds: float) -> float:
 @pytest.mark.parametrize(("count", "seconds"), [(int(os.environ.get("LIMP_STARTS", "1000")), 5.0), (20, 60.0)])
 @pytest.mark.parametrize("dt", [1e-3, 2e-3])
 def test_a_limp_human_falls_down_and_lies(dt: float, count: int, seconds: float) -> None:
-    """None blows up, and all lie still: for the last 2 s, but for 2 or 3 of 100 that move again after the third."""
+    """None blows up, and all lie still for the last 2 s."""
     with multiprocessing.Pool() as pool:
         moved = np.array(pool.starmap(falls, [(start, dt, seconds) for start in range(count)], chunksize=1))
     still = np.count_nonzero(moved <= seconds - 2.0)
     print(f"{count} falls of {seconds:g} s at {1e3 * dt:g} ms: none blew up, {still} lie still for the last 2 s")
     print(f"  the last to move did so at {moved.max():.2f} s")
-    assert still >= 0.95 * count
-    assert moved.max() <= seconds + 8.0
+    assert still == count
