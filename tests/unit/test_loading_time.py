@@ -33,16 +33,19 @@ def long_chain_world(links: int, detector: str) -> str:
     return f'<skel version="1.0"><world name="w">{physics}<skeleton name="s">{bodies}{joints}</skeleton></world></skel>'
 
 
-@pytest.mark.parametrize(("links", "seconds"), [(500, 2.0), (2000, 10.0)])
-def test_chains_of_very_many_links(links: int, seconds: float) -> None:
-    """The engine makes its matrices anew for each link; here they are made once. Of the processor's time, half at most
-    is the trial's."""
-    world = World(0.001)
-    start = time.process_time()
-    chain = world.add_skeleton(long_chain(links), safe=True, load_seconds=seconds / 2)
-    assert time.process_time() - start < seconds / 2
-    assert chain.ndofs == 6 + links - 1 and chain.m == pytest.approx(links)
-    assert chain.C[2] == pytest.approx(0.05 * (links - 1))
+def test_chains_of_very_many_links() -> None:
+    """The engine makes its matrices anew for each link, so that 2,000 took 64 times as long as 500; here they are made
+    once. How long both take depends on the machine: the bars are for the trial and for the reading each."""
+    took = {}
+    for links, seconds in ((500, 2.0), (2000, 10.0)):
+        world = World(0.001)
+        start = time.process_time()
+        chain = world.add_skeleton(long_chain(links), safe=True, load_seconds=seconds)
+        took[links] = time.process_time() - start
+        assert took[links] < seconds
+        assert chain.ndofs == 6 + links - 1 and chain.m == pytest.approx(links)
+        assert chain.C[2] == pytest.approx(0.05 * (links - 1))
+    assert took[2000] < 25.0 * took[500]
     short = world.add_skeleton(long_chain(40), safe=False)
     np.testing.assert_allclose(short.M[3:6, 3:6], 40.0 * np.eye(3), atol=1e-9)
 
