@@ -16,7 +16,7 @@ from pydart2.gui.context import ContextError, current_context, load_opengl
 from pydart2.gui.draw_list import Item, Scene, Show
 from pydart2.gui.geometry import Mesh
 from pydart2.gui.shaders import Program
-from pydart2.gui.shadow import ShadowMap
+from pydart2.gui.shadow import Shadow, ShadowMap
 
 Matrix = NDArray[np.float64]
 
@@ -91,7 +91,7 @@ class SceneRenderer:
         self._textures = Textures()
         self._shadow: ShadowMap | None = None  # the one drawn last
         self._shadows: dict[int, ShadowMap] = {}  # by their size
-        self._late: tuple[Matrix, float] | None = None
+        self._late: Shadow | None = None
         self._draws = 0
         self._frame = 0
 
@@ -133,21 +133,30 @@ class SceneRenderer:
         light = self._light(scene.up)
         self._draws += 1
         late, self._late = self._late, None
-        shadow, texel = late or self._draw_shadow(scene, batches, light)
+        shadow = late or self._draw_shadow(scene, batches, light)
         self._bind_shadow()
         uniforms = self._uniforms = self._light_uniforms(scene.up, view) | {
             "view_projection": projection @ view,
-            "shadow": _BIAS @ shadow,
-            "shadow_push": 1.5 * texel,
+            "shadow": _BIAS @ shadow.matrix,
+            "shadow_push": 1.5 * shadow.texel,
             "shadow_size": 1.0 / self._shadow_size,
         }
+        is_shaded = shadow.texel > 0.0
+        floors = [item for item in scene.items if item.grid > 0.0]
         for batch in batches:
-            self._begin_lit(batch.bucket, texel > 0.0, uniforms)
+            self._begin_lit(batch.bucket, is_shaded, uniforms)
+            if is_shaded and batch.bucket.grid:
+                GL.glEnable(GL.GL_SCISSOR_TEST)
+                viewport = GL.glGetIntegerv(GL.GL_VIEWPORT)
+                GL.glScissor(*shadow.part_of_picture(floors, scene.up, projection @ view, viewport))
+                self._draw_batch(batch)
+                GL.glDisable(GL.GL_SCISSOR_TEST)
+                self._begin_lit(batch.bucket, False, uniforms)  # and the rest, which is not drawn over
             self._draw_batch(batch)
         blend()
         GL.glDepthMask(False)
         for batch in blended:
-            self._begin_lit(batch.bucket, texel > 0.0, uniforms, "BLEND")
+            self._begin_lit(batch.bucket, is_shaded, uniforms, "BLEND")
             self._draw_batch(batch)
         GL.glDepthMask(True)
         if self.style.draft:
@@ -213,20 +222,20 @@ class SceneRenderer:
     def _shadow_size(self) -> int:
         return self.style.shadow_size // 2 if self.style.draft else self.style.shadow_size
 
-    def _draw_shadow(self, scene: Scene, batches: list[_Batch], light: NDArray[np.float64]) -> tuple[Matrix, float]:
+    def _draw_shadow(self, scene: Scene, batches: list[_Batch], light: NDArray[np.float64]) -> Shadow:
         casters = [item for item in scene.items if item.casts and item.rgba[3] > 0.5]
         if not self.style.shadows or not casters:
-            return np.eye(4), 0.0
+            return Shadow(np.eye(4), 0.0, np.zeros((4, 3)), light)
         size = self._shadow_size
         self._shadow = self._shadows[size] = self._shadows.get(size) or ShadowMap(size)
-        matrix, texel = self._shadow.fit(casters, light)
-        before = self._shadow.begin(matrix)
+        shadow = self._shadow.fit(casters, light)
+        before = self._shadow.begin(shadow.matrix)
         for batch in batches:
             if batch.bucket.casts:
                 _cull(batch.bucket)
                 self._draw_batch(batch)
         self._shadow.end(before)
-        return matrix, texel
+        return shadow
 
     def _bind_shadow(self) -> None:
         if self._shadow is not None:

@@ -44,6 +44,7 @@ uniform mat4 u_view_projection;
 uniform mat4 u_shadow;
 uniform vec3 u_eye;
 uniform float u_shadow_push;
+invariant gl_Position; // floors are drawn in two parts
 out vec3 v_to_eye;
 out vec3 v_normal;
 flat out vec4 v_color; // with the strength of highlights, if no alpha is needed

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,47 @@ from pydart2.gui import placing, shaders
 from pydart2.gui.draw_list import Item
 
 Matrix = NDArray[np.float64]
+
+_BLUR = 6.0  # texels that a shadow reaches beyond what throws it: taps, filter, and the push along normals
+
+
+class Shadow(NamedTuple):
+    """A map as it was drawn.
+
+    Attributes
+    ----------
+    matrix : (4, 4)
+        The light's view and projection.
+    texel : float
+        Its size, m; 0 without shadows.
+    corners : (4, 3)
+        Of a rectangle across the light in front of which all lies that throws shadows, m.
+    light : (3,)
+        Towards the light.
+    """
+
+    matrix: Matrix
+    texel: float
+    corners: NDArray[np.float64]
+    light: NDArray[np.float64]
+
+    def part_of_picture(
+        self, floors: list[Item], up: NDArray[np.float64], view_projection: Matrix, viewport: NDArray[np.int32]
+    ) -> tuple[int, int, int, int]:
+        """Where shadows may be on these items: x, y, width and height in pixels, as glScissor() has them."""
+        x, y, width, height = map(int, viewport)
+        heights = placing.boxes(floors).reshape(-1, 3) @ up
+        if self.light @ up < 0.01:
+            return x, y, width, height
+        ways = (np.array([[heights.min()], [heights.max()]]) - self.corners @ up) / (self.light @ up)
+        points = (self.corners + ways[..., None] * self.light).reshape(-1, 3)
+        seen = points @ view_projection[:, :3].T + view_projection[:, 3]
+        if seen[:, 3].min() < 1e-6:  # behind the eye
+            return x, y, width, height
+        size = np.array([width, height])
+        pixels = np.clip((seen[:, :2] / seen[:, 3:] + 1.0) / 2.0 * size, 0.0, size)
+        low, high = np.floor(pixels.min(axis=0)).astype(int), np.ceil(pixels.max(axis=0)).astype(int)
+        return x + int(low[0]), y + int(low[1]), int(high[0] - low[0]), int(high[1] - low[1])
 
 
 class ShadowMap:
@@ -27,12 +68,11 @@ class ShadowMap:
         for key, value in (
             (GL.GL_TEXTURE_MIN_FILTER, GL.GL_LINEAR),
             (GL.GL_TEXTURE_MAG_FILTER, GL.GL_LINEAR),
-            (GL.GL_TEXTURE_WRAP_S, GL.GL_CLAMP_TO_BORDER),
-            (GL.GL_TEXTURE_WRAP_T, GL.GL_CLAMP_TO_BORDER),
+            (GL.GL_TEXTURE_WRAP_S, GL.GL_CLAMP_TO_EDGE),
+            (GL.GL_TEXTURE_WRAP_T, GL.GL_CLAMP_TO_EDGE),
             (GL.GL_TEXTURE_COMPARE_MODE, GL.GL_COMPARE_REF_TO_TEXTURE),
         ):
             GL.glTexParameteri(GL.GL_TEXTURE_2D, key, value)
-        GL.glTexParameterfv(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_BORDER_COLOR, np.ones(4, np.float32))
         GL.glBindTexture(GL.GL_TEXTURE_2D, 0)
         self._framebuffer = int(GL.glGenFramebuffers(1))
 
@@ -56,8 +96,8 @@ class ShadowMap:
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, int(before[0]))
         GL.glViewport(*before[1])
 
-    def fit(self, casters: list[Item], light: NDArray[np.float64]) -> tuple[Matrix, float]:
-        """The light's view and projection, (4, 4), around what throws shadows, and the size of a texel in m.
+    def fit(self, casters: list[Item], light: NDArray[np.float64]) -> Shadow:
+        """The map around what throws shadows.
 
         The edges keep to a coarse grid, so that shadows do not flicker when things move.
         """
@@ -75,4 +115,6 @@ class ShadowMap:
         matrix = np.eye(4)
         matrix[:3, :3] = turn
         matrix[:3, 3] = -middle
-        return np.diag([2.0 / size, 2.0 / size, -2.0 / depth, 1.0]) @ matrix, texel
+        around = np.array([low, high])[:, :2] + [[-_BLUR * texel], [_BLUR * texel]]
+        edges = np.array([[x, y, middle[2]] for x in around[:, 0] for y in around[:, 1]]) @ turn
+        return Shadow(np.diag([2.0 / size, 2.0 / size, -2.0 / depth, 1.0]) @ matrix, texel, edges, light)

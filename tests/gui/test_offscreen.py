@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 import pydart2
 from pydart2.gui import Camera, OffscreenRenderer, Trackball, render
 from pydart2.gui.context import ContextError
+from pydart2.gui.shadow import Shadow
 
 from .worlds import body, box, primitives, sphere, textured_board, world_of
 
@@ -290,6 +291,37 @@ def test_a_texture_that_is_missing_is_drawn_white(tmp_path: Path, caplog: pytest
     picture = OffscreenRenderer(240, 180).render(world, camera=FRONT)
     assert picture[60, 90].min() > 110
     assert "quarters.png" in caplog.text
+
+
+@pytest.mark.parametrize("draft", [False, True])
+@pytest.mark.parametrize("light", [(0.45, 1.0, 0.6), (3.0, 0.5, 1.0), (0.2, -1.0, 0.1)])
+def test_floors_are_shaded_wherever_shadows_reach(
+    monkeypatch: pytest.MonkeyPatch, light: tuple[float, float, float], draft: bool
+) -> None:
+    """They are looked up only there; the oracle looks everywhere."""
+    floor = body(box(8.0, 0.1, 8.0), "0 -1 0 0 0 0", "0.9 0.9 0.9", fixed=True)
+    world = world_of(floor, body(sphere(0.3)), body(box(0.2, 1.0, 0.2), "1 0 -1 0.5 0 0.3"))
+    eyes = [(0.0, 6.0, 0.01), (2.0, 1.0, 3.0), (0.5, -0.5, 0.8), (-3.0, -0.8, 0.1), (1.0, -2.0, 1.0), (9.0, 9.0, 9.0)]
+    cameras = [Camera.look_at(eye, [0.2, -0.2, 0.0], [0.0, 1.0, 0.0]) for eye in eyes]
+    areas = []
+    part_of_picture = Shadow.part_of_picture
+
+    def noted(*args: Any) -> tuple[int, int, int, int]:
+        areas.append(part_of_picture(*args))
+        return areas[-1]
+
+    def pictures() -> list[NDArray[np.uint8]]:
+        renderer = OffscreenRenderer(240, 180, samples=0 if draft else 4)
+        renderer.scene.style.light, renderer.scene.style.draft = light, draft
+        drawn = [renderer.render(world, camera=camera) for camera in cameras for _ in range(3)]
+        renderer.close()
+        return drawn
+
+    monkeypatch.setattr(Shadow, "part_of_picture", noted)
+    found = pictures()
+    monkeypatch.setattr(Shadow, "part_of_picture", lambda *_: (0, 0, 240, 180))
+    assert all((ours == whole).all() for ours, whole in zip(found, pictures(), strict=True))
+    assert (min(width * height for *_, width, height in areas) < 240 * 180 / 4) == (light[1] > 0.0)
 
 
 def test_shadows_of_drafts_are_at_most_two_pictures_old(cubes: pydart2.World) -> None:
