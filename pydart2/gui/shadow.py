@@ -39,7 +39,10 @@ class Shadow(NamedTuple):
     def part_of_picture(
         self, floors: list[Item], up: NDArray[np.float64], view_projection: Matrix, viewport: NDArray[np.int32]
     ) -> tuple[int, int, int, int]:
-        """Where shadows may be on these items: x, y, width and height in pixels, as glScissor() has them."""
+        """Where shadows may be on these items with up (3,), through a matrix (4, 4) of points in m, in a viewport (4,).
+
+        Result and viewport are x, y, width and height in pixels, as glScissor() has them.
+        """
         x, y, width, height = map(int, viewport)
         heights = placing.boxes(floors).reshape(-1, 3) @ up
         if self.light @ up < 0.01:
@@ -77,7 +80,7 @@ class ShadowMap:
         self._framebuffer = int(GL.glGenFramebuffers(1))
 
     def begin(self, matrix: Matrix) -> Any:
-        """Draw into the map from now on, through a matrix of `fit`; returns what `end` wants."""
+        """Draw into the map from now on, through a matrix (4, 4) of points in m; returns what `end` wants."""
         before = GL.glGetIntegerv(GL.GL_DRAW_FRAMEBUFFER_BINDING), GL.glGetIntegerv(GL.GL_VIEWPORT)
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._framebuffer)
         target = (GL.GL_DRAW_FRAMEBUFFER, GL.GL_DEPTH_ATTACHMENT, GL.GL_TEXTURE_2D)
@@ -97,7 +100,7 @@ class ShadowMap:
         GL.glViewport(*before[1])
 
     def fit(self, casters: list[Item], light: NDArray[np.float64]) -> Shadow:
-        """The map around what throws shadows.
+        """The map around what throws shadows, lengths in m, with the light in a direction (3,).
 
         The edges keep to a coarse grid, so that shadows do not flicker when things move.
         """
