@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from OpenGL import GL
 
 from pydart2.gui import shaders
+from pydart2.gui.background import Background
 from pydart2.gui.buffers import INSTANCE_FLOATS, Pool, Textures
 from pydart2.gui.context import ContextError, current_context, load_opengl
 from pydart2.gui.draw_list import Item, Scene, Show
@@ -35,7 +36,7 @@ class Style:
         Pixels of the shadow map along an edge.
     draft : bool
         Whether shadows have hard edges, half the pixels, and are those of one or two pictures before, for which
-        OpenGL need not wait.
+        OpenGL need not wait; and whether what lies behind is kept from picture to picture.
     wireframe : bool
     background_top, background_bottom : (3,)
     light : (3,)
@@ -83,7 +84,7 @@ class SceneRenderer:
         self.show = Show()
         self.letters: dict[int, int] = {}  # textures of the letters by their size
         self.frame_matrices = np.eye(4), np.eye(4)
-        self._uniforms: dict[str, object] = {}
+        self._uniforms: dict[str, Any] = {}
         self._programs: dict[tuple[str, ...], Program] = {}
         self._sky, self._bodies = shaders.sky(), shaders.bodies()
         self._instances, self._commands = (int(name) for name in GL.glGenBuffers(2))
@@ -92,6 +93,7 @@ class SceneRenderer:
         self._shadow: ShadowMap | None = None  # the one drawn last
         self._shadows: dict[int, ShadowMap] = {}  # by their size
         self._late: Shadow | None = None
+        self._background = Background()
         self._draws = 0
         self._frame = 0
 
@@ -122,8 +124,11 @@ class SceneRenderer:
         GL.glDrawArrays(GL.GL_TRIANGLE_STRIP, 0, 4)
         _leave()
 
-    def draw(self, scene: Scene, view: Matrix, projection: Matrix) -> None:
-        """Draw a scene into the framebuffer and viewport that are set, through matrices (4, 4) of points in m."""
+    def draw(self, scene: Scene, view: Matrix, projection: Matrix, untouched: bool = False) -> None:
+        """Draw a scene into the framebuffer and viewport that are set, through matrices (4, 4) of points in m.
+
+        `untouched` says that there is nothing but the background yet.
+        """
         if not scene.items:
             return
         batches, blended = self._prepare(scene, _eye(view))
@@ -143,16 +148,15 @@ class SceneRenderer:
         }
         is_shaded = shadow.texel > 0.0
         floors = [item for item in scene.items if item.grid > 0.0]
+        self._draw_floors(floors, batches, uniforms, untouched and self.style.draft)
         for batch in batches:
-            self._begin_lit(batch.bucket, is_shaded, uniforms)
-            if is_shaded and batch.bucket.grid:
-                GL.glEnable(GL.GL_SCISSOR_TEST)
-                viewport = GL.glGetIntegerv(GL.GL_VIEWPORT)
-                GL.glScissor(*shadow.part_of_picture(floors, scene.up, projection @ view, viewport))
+            if not batch.bucket.grid:
+                self._begin_lit(batch.bucket, is_shaded, uniforms)
                 self._draw_batch(batch)
-                GL.glDisable(GL.GL_SCISSOR_TEST)
-                self._begin_lit(batch.bucket, False, uniforms)  # and the rest, which is not drawn over
-            self._draw_batch(batch)
+        if is_shaded and floors:
+            viewport = GL.glGetIntegerv(GL.GL_VIEWPORT)
+            GL.glScissor(*shadow.part_of_picture(floors, scene.up, projection @ view, viewport))
+            self._draw_shadows_on_floors(batches, uniforms)
         blend()
         GL.glDepthMask(False)
         for batch in blended:
@@ -164,6 +168,30 @@ class SceneRenderer:
             GL.glPolygonMode(GL.GL_FRONT_AND_BACK, GL.GL_FILL)
             self._late = late if late and self._frame % 2 else self._draw_shadow(scene, batches, light)
         _leave()
+
+    def _draw_floors(self, floors: list[Item], batches: list[_Batch], uniforms: dict[str, Any], keep: bool) -> None:
+        """Without shadows; with `keep` the picture before gives them, and the sky, if they look the same."""
+        looks = [(item.mesh, item.transform.tobytes(), tuple(item.rgba), item.specular, item.grid) for item in floors]
+        key = looks, repr(self.style), tuple(uniforms["up"]), uniforms["view_projection"].tobytes()
+        if keep and self._background.put_back(key):
+            return
+        for batch in batches:
+            if batch.bucket.grid:
+                self._begin_lit(batch.bucket, False, uniforms)
+                self._draw_batch(batch)
+        if keep:
+            self._background.keep(key)
+
+    def _draw_shadows_on_floors(self, batches: list[_Batch], uniforms: dict[str, Any]) -> None:
+        """Draw floors, which are there, once more with shadows, where the scissors say."""
+        GL.glEnable(GL.GL_SCISSOR_TEST)
+        GL.glDepthFunc(GL.GL_LEQUAL)
+        for batch in batches:
+            if batch.bucket.grid:
+                self._begin_lit(batch.bucket, True, uniforms)
+                self._draw_batch(batch)
+        GL.glDepthFunc(GL.GL_LESS)
+        GL.glDisable(GL.GL_SCISSOR_TEST)
 
     def draw_bodies(self, scene: Scene, view: Matrix, projection: Matrix) -> None:
         """Draw skeleton and body ids into colour attachment 0 (two integers), depth in m into attachment 1 (float).
@@ -206,7 +234,7 @@ class SceneRenderer:
         light = right * x + above * up + front * z / np.linalg.norm(z)
         return np.asarray(light / np.linalg.norm(light))
 
-    def _light_uniforms(self, up: NDArray[np.float64], view: Matrix) -> dict[str, object]:
+    def _light_uniforms(self, up: NDArray[np.float64], view: Matrix) -> dict[str, Any]:
         return {
             "eye": _eye(view),
             "up": up,
@@ -242,7 +270,7 @@ class SceneRenderer:
             GL.glActiveTexture(GL.GL_TEXTURE1)
             GL.glBindTexture(GL.GL_TEXTURE_2D, self._shadow.texture)
 
-    def _begin_lit(self, bucket: _Bucket, shadows: bool, uniforms: dict[str, object], *more: str) -> None:
+    def _begin_lit(self, bucket: _Bucket, shadows: bool, uniforms: dict[str, Any], *more: str) -> None:
         features = [*more]
         if self._pools[bucket.pool].rich:
             features.append("RICH")

@@ -9,8 +9,14 @@ from OpenGL import GL
 from pydart2.gui.context import ContextError
 
 
-class _Framebuffer:
-    """A framebuffer object with renderbuffers of these formats, and depth."""
+class Framebuffer:
+    """A framebuffer object with renderbuffers of these formats, and depth.
+
+    Attributes
+    ----------
+    name : int
+        OpenGL's.
+    """
 
     def __init__(self, width: int, height: int, samples: int, *formats: int) -> None:
         if samples > (most := int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES))):
@@ -31,9 +37,11 @@ class _Framebuffer:
             raise ContextError(f"this OpenGL cannot draw {width} by {height} pixels with {samples} samples")
 
     def bind(self) -> None:
+        """Draw into it, and read from it, from now on."""
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self.name)
 
     def free(self) -> None:
+        """Give its memory back."""
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, 0)
         GL.glDeleteFramebuffers(1, [self.name])
         GL.glDeleteRenderbuffers(len(self._buffers), self._buffers)
@@ -44,9 +52,9 @@ class ColorTarget:
 
     def __init__(self, width: int, height: int, samples: int) -> None:
         self.width, self.height, self.samples = width, height, samples
-        self._drawn = self._read = _Framebuffer(width, height, samples, GL.GL_RGBA8)
+        self._drawn = self._read = Framebuffer(width, height, samples, GL.GL_RGBA8)
         if samples:
-            self._read = _Framebuffer(width, height, 0, GL.GL_RGBA8)
+            self._read = Framebuffer(width, height, 0, GL.GL_RGBA8)
         self._pixels = np.empty((height, width, 4), np.uint8)
 
     def begin(self) -> None:
@@ -85,7 +93,7 @@ class BodiesTarget:
 
     def __init__(self, width: int, height: int) -> None:
         self.width, self.height = width, height
-        self._framebuffer = _Framebuffer(width, height, 0, GL.GL_RG32I, GL.GL_R32F)
+        self._framebuffer = Framebuffer(width, height, 0, GL.GL_RG32I, GL.GL_R32F)
 
     def begin(self) -> None:
         """Draw into it from now on; all is background."""

@@ -13,7 +13,11 @@ from numpy.typing import NDArray
 
 import pydart2
 from pydart2.gui import Camera, OffscreenRenderer, Trackball, render
+from pydart2.gui.background import Background
 from pydart2.gui.context import ContextError
+from pydart2.gui.overlays import Overlays
+from pydart2.gui.pyqt5.stage import Stage
+from pydart2.gui.runtime import Runtime
 from pydart2.gui.shadow import Shadow
 
 from .worlds import body, box, primitives, sphere, textured_board, world_of
@@ -341,3 +345,41 @@ def test_shadows_of_drafts_are_at_most_two_pictures_old(cubes: pydart2.World) ->
     renderer.scene.style.draft = True
     assert (renderer.render(cubes, camera=camera) == now).all()  # the first draft waits for its own shadows
     renderer.close()
+
+
+def test_drafts_keep_what_lies_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sky and floors, as long as they look the same; the oracle draws them each time."""
+    floor = body(box(8.0, 0.1, 8.0), "0 -1 0 0 0 0", "0.9 0.9 0.9", fixed=True)
+    put_back = Background.put_back
+
+    def pictures() -> list[NDArray[np.uint8]]:
+        world = world_of(floor, body(sphere(0.3)), body(box(0.2, 1.0, 0.2), "1 0 -1 0.5 0 0.3"))
+        stage, shape = Stage(Runtime(world), Overlays()), world.skeletons[0].bodynodes[0].shapenodes[0]
+        renderer = OffscreenRenderer(240, 180, samples=0)
+        renderer.scene.style.draft = True
+        drawn = []
+
+        def draw(eye: tuple[float, float, float], width: int = 240) -> None:
+            camera = Camera.look_at(eye, [0.2, -0.2, 0.0], [0.0, 1.0, 0.0])
+            drawn.extend(renderer.render(stage, width, 180, camera) for _ in range(3))
+
+        draw((2.0, 1.0, 3.0))
+        draw((3.0, 2.0, 2.0))
+        draw((2.0, 1.0, 3.0))
+        draw((2.0, 1.0, 3.0), width=200)
+        renderer.scene.style.background_top = (0.1, 0.2, 0.3)
+        draw((2.0, 1.0, 3.0))
+        shape.set_visual_aspect_rgba([0.2, 0.9, 0.2, 1.0])
+        draw((2.0, 1.0, 3.0))
+        shape.set_offset([0.0, 0.3, 0.0])
+        draw((2.0, 1.0, 3.0))
+        renderer.close()
+        return drawn
+
+    found: list[bool] = []
+    monkeypatch.setattr(Background, "put_back", lambda self, key: found.append(put_back(self, key)) or found[-1])
+    kept = pictures()
+    assert found == 7 * [False, True, True]
+    monkeypatch.setattr(Background, "put_back", lambda *_: False)
+    assert all((ours == oracle).all() for ours, oracle in zip(kept, pictures(), strict=True))
+    assert all(a.shape != b.shape or (a != b).any() for a, b in zip(kept[2::3], kept[5::3], strict=False))

@@ -37,7 +37,7 @@ class Stage:
         sim = self.runtime.sim
         if isinstance(sim, World) and type(sim).render is World.render:
             with self.runtime.guarded():
-                drawing.draw(self.overlays.scene(sim))
+                drawing.draw(self.overlays.scene(sim), untouched=True)
         elif hasattr(sim, "render"):
             self._ask(sim.render)
 
