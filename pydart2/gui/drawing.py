@@ -54,9 +54,9 @@ def matrices() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return view, projection
 
 
-def draw(scene: Scene, untouched: bool = False) -> None:
-    """Draw a scene with OpenGL's own matrices; `untouched` says that there is nothing but the background yet."""
-    renderer().draw(scene, *matrices(), untouched)
+def draw(scene: Scene, background: bool = False) -> None:
+    """Draw a scene with OpenGL's own matrices, with the background if it is not there yet."""
+    renderer().draw(scene, *matrices(), background)
 
 
 def draw_world(world: World, markers: bool, contacts: bool, contact_size: float, force_scale: float) -> None:

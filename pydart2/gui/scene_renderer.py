@@ -124,13 +124,20 @@ class SceneRenderer:
         GL.glDrawArrays(GL.GL_TRIANGLE_STRIP, 0, 4)
         _leave()
 
-    def draw(self, scene: Scene, view: Matrix, projection: Matrix, untouched: bool = False) -> None:
-        """Draw a scene into the framebuffer and viewport that are set, through matrices (4, 4) of points in m.
+    def draw(self, scene: Scene, view: Matrix, projection: Matrix, background: bool = False) -> None:
+        """Draw a scene, with the background if it is not there yet, into the framebuffer and viewport that are set.
 
-        `untouched` says that there is nothing but the background yet.
+        The matrices (4, 4) are those of points in m.
         """
         if not scene.items:
+            if background:
+                self.clear()
             return
+        floors = [item for item in scene.items if item.grid > 0.0]
+        keeps, looks = background and self.style.draft, self._looks(floors, scene.up, projection @ view)
+        is_kept = keeps and self._background.put_back(looks)
+        if background and not is_kept:
+            self.clear()
         batches, blended = self._prepare(scene, _eye(view))
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthFunc(GL.GL_LESS)
@@ -147,51 +154,28 @@ class SceneRenderer:
             "shadow_size": 1.0 / self._shadow_size,
         }
         is_shaded = shadow.texel > 0.0
-        floors = [item for item in scene.items if item.grid > 0.0]
-        self._draw_floors(floors, batches, uniforms, untouched and self.style.draft)
-        for batch in batches:
-            if not batch.bucket.grid:
-                self._begin_lit(batch.bucket, is_shaded, uniforms)
-                self._draw_batch(batch)
-        if is_shaded and floors:
+        if not is_kept:
+            self._draw_lit([batch for batch in batches if batch.bucket.grid], False, uniforms)
+        if keeps and not is_kept:
+            self._background.keep(looks)
+        self._draw_lit([batch for batch in batches if not batch.bucket.grid], is_shaded, uniforms)
+        if is_shaded and floors:  # which are there, once more where shadows may be
             viewport = GL.glGetIntegerv(GL.GL_VIEWPORT)
             GL.glScissor(*shadow.part_of_picture(floors, scene.up, projection @ view, viewport))
-            self._draw_shadows_on_floors(batches, uniforms)
+            GL.glEnable(GL.GL_SCISSOR_TEST)
+            GL.glDepthFunc(GL.GL_LEQUAL)
+            self._draw_lit([batch for batch in batches if batch.bucket.grid], True, uniforms)
+            GL.glDepthFunc(GL.GL_LESS)
+            GL.glDisable(GL.GL_SCISSOR_TEST)
         blend()
         GL.glDepthMask(False)
-        for batch in blended:
-            self._begin_lit(batch.bucket, is_shaded, uniforms, "BLEND")
-            self._draw_batch(batch)
+        self._draw_lit(blended, is_shaded, uniforms, "BLEND")
         GL.glDepthMask(True)
         if self.style.draft:
             GL.glDisable(GL.GL_BLEND)
             GL.glPolygonMode(GL.GL_FRONT_AND_BACK, GL.GL_FILL)
             self._late = late if late and self._frame % 2 else self._draw_shadow(scene, batches, light)
         _leave()
-
-    def _draw_floors(self, floors: list[Item], batches: list[_Batch], uniforms: dict[str, Any], keep: bool) -> None:
-        """Without shadows; with `keep` the picture before gives them, and the sky, if they look the same."""
-        looks = [(item.mesh, item.transform.tobytes(), tuple(item.rgba), item.specular, item.grid) for item in floors]
-        key = looks, repr(self.style), tuple(uniforms["up"]), uniforms["view_projection"].tobytes()
-        if keep and self._background.put_back(key):
-            return
-        for batch in batches:
-            if batch.bucket.grid:
-                self._begin_lit(batch.bucket, False, uniforms)
-                self._draw_batch(batch)
-        if keep:
-            self._background.keep(key)
-
-    def _draw_shadows_on_floors(self, batches: list[_Batch], uniforms: dict[str, Any]) -> None:
-        """Draw floors, which are there, once more with shadows, where the scissors say."""
-        GL.glEnable(GL.GL_SCISSOR_TEST)
-        GL.glDepthFunc(GL.GL_LEQUAL)
-        for batch in batches:
-            if batch.bucket.grid:
-                self._begin_lit(batch.bucket, True, uniforms)
-                self._draw_batch(batch)
-        GL.glDepthFunc(GL.GL_LESS)
-        GL.glDisable(GL.GL_SCISSOR_TEST)
 
     def draw_bodies(self, scene: Scene, view: Matrix, projection: Matrix) -> None:
         """Draw skeleton and body ids into colour attachment 0 (two integers), depth in m into attachment 1 (float).
@@ -287,6 +271,16 @@ class SceneRenderer:
         program.set(texture=0, **uniforms)
         _cull(bucket)
         GL.glPolygonMode(GL.GL_FRONT_AND_BACK, GL.GL_LINE if self.style.wireframe else GL.GL_FILL)
+
+    def _draw_lit(self, batches: list[_Batch], shadows: bool, uniforms: dict[str, Any], *more: str) -> None:
+        for batch in batches:
+            self._begin_lit(batch.bucket, shadows, uniforms, *more)
+            self._draw_batch(batch)
+
+    def _looks(self, floors: list[Item], up: NDArray[np.float64], view_projection: Matrix) -> object:
+        """All that the background and these floors without shadows depend on."""
+        items = [(item.mesh, item.transform.tobytes(), tuple(item.rgba), item.specular, item.grid) for item in floors]
+        return items, repr(self.style), tuple(up), view_projection.tobytes()
 
     def _program(self, *features: str) -> Program:
         if features not in self._programs:

@@ -88,7 +88,8 @@ class OpenGLScene:
         GL.glMatrixMode(GL.GL_MODELVIEW)
         GL.glLoadMatrixd(view.T.copy())
         renderer.begin_frame(view, projection, up_of(sim))
-        renderer.clear()
+        if not getattr(sim, "draws_background", False):
+            renderer.clear()
 
     def enable2D(self) -> None:  # noqa: N802 (the original's)
         """Draw in pixels from now on: x to the right and y downwards from the upper left corner."""

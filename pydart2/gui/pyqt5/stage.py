@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pydart2.gui import drawing
+from pydart2.gui.draw_list import Scene
 from pydart2.gui.overlays import Overlays
 from pydart2.gui.runtime import Runtime
 from pydart2.simulation.up import unit, up_of
@@ -25,6 +26,12 @@ class Stage:
         self.runtime = runtime
         self.overlays = overlays
 
+    @property
+    def draws_background(self) -> bool:
+        """Whether render() draws the background too: user code may draw before a world."""
+        sim = self.runtime.sim
+        return isinstance(sim, World) and type(sim).render is World.render
+
     def _up_in_pictures(self) -> NDArray[np.float64]:
         sim = self.runtime.sim
         with self.runtime.guarded():
@@ -35,9 +42,11 @@ class Stage:
     def render(self) -> None:
         """Draw the simulation."""
         sim = self.runtime.sim
-        if isinstance(sim, World) and type(sim).render is World.render:
+        if self.draws_background:
+            scene = Scene()
             with self.runtime.guarded():
-                drawing.draw(self.overlays.scene(sim), untouched=True)
+                scene = self.overlays.scene(sim)
+            drawing.draw(scene, background=True)
         elif hasattr(sim, "render"):
             self._ask(sim.render)
 
