@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 NOBODY = (-1, -1)
+_OPAQUE = np.ones(4)
 
 _MARKER = (0.95, 0.35, 0.15)
 _FORCE = (0.9, 0.15, 0.15)
@@ -136,8 +137,8 @@ class Scene:
         """Add a mesh: pose in the world (4, 4), factors along the mesh's axes (3,) or one, colour of 3 or 4 numbers."""
         matrix = transform.copy()
         matrix[:, :3] *= np.asarray(scale, dtype=float)
-        color = np.ones(4)
-        color[: len(np.atleast_1d(rgba))] = rgba
+        given, color = np.asarray(rgba, dtype=float), _OPAQUE.copy()
+        color[: given.size] = given
         if color[3] > 0.0:
             self.items.append(Item(mesh, matrix, color, ids, casts, specular, grid))
 

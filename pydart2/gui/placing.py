@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from itertools import product
 from typing import TYPE_CHECKING
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_X, _Y = np.eye(3)[:2]
-
 
 def grid_of(width: float) -> float:
     """Edge of the cells on a floor so wide, m."""
@@ -25,18 +24,22 @@ def grid_of(width: float) -> float:
 def between(start: Array, end: Array, part: float = 0.5) -> Array:
     """A pose (4, 4) whose z axis points from `start` to `end`, and its x axis nearly along the world's x (or y, where z
     is along x); its origin is at this part of the way."""
-    z = (end - start) / np.linalg.norm(end - start)
-    x = _X if abs(z[0]) < 0.9 else _Y
-    x = x - (x @ z) * z
-    x /= np.linalg.norm(x)
-    (a, b, c), (d, e, f) = z.tolist(), x.tolist()
-    pose = np.empty((4, 4))
-    pose[:, 0] = d, e, f, 0.0
-    pose[:, 1] = b * f - c * e, c * d - a * f, a * e - b * d, 0.0  # np.cross() takes five times as long
-    pose[:, 2] = a, b, c, 0.0
-    pose[:3, 3] = start + part * (end - start)
-    pose[3, 3] = 1.0
-    return pose
+    # In numbers of Python, which are ten times quicker than arrays of three.
+    (o, p, q), (u, v, w) = start.tolist(), end.tolist()
+    u, v, w = u - o, v - p, w - q
+    length = math.hypot(u, v, w)
+    a, b, c = u / length, v / length, w / length
+    d, e, f = (1.0 - a * a, -a * b, -a * c) if abs(a) < 0.9 else (-b * a, 1.0 - b * b, -b * c)
+    width = math.hypot(d, e, f)
+    d, e, f = d / width, e / width, f / width
+    return np.array(
+        [
+            [d, b * f - c * e, a, o + part * u],
+            [e, c * d - a * f, b, p + part * v],
+            [f, a * e - b * d, c, q + part * w],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+    )
 
 
 def boxes(items: Iterable[Item]) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -212,11 +213,7 @@ class SceneRenderer:
 
     def _light(self, up: NDArray[np.float64]) -> NDArray[np.float64]:
         """Direction towards the light, in the world."""
-        right, above, front = self.style.light
-        x = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.7 else np.array([0.0, 1.0, 0.0])
-        z = np.cross(x, up)
-        light = right * x + above * up + front * z / np.linalg.norm(z)
-        return np.asarray(light / np.linalg.norm(light))
+        return _towards_light(tuple(self.style.light), tuple(up.tolist()))
 
     def _light_uniforms(self, up: NDArray[np.float64], view: Matrix) -> dict[str, Any]:
         return {
@@ -366,6 +363,15 @@ def check_context() -> None:
         raise ContextError(f"OpenGL 4.3 is needed, this is {GL.glGetString(GL.GL_VERSION).decode()}")
     if not GL.glGetIntegerv(GL.GL_CONTEXT_PROFILE_MASK) & GL.GL_CONTEXT_COMPATIBILITY_PROFILE_BIT:
         raise ContextError("an OpenGL context in the compatibility profile is needed, this is a core profile")
+
+
+@lru_cache
+def _towards_light(light: tuple[float, float, float], up: tuple[float, float, float]) -> NDArray[np.float64]:
+    """Direction in the world towards a light that is so far to the right, above and in front."""
+    x = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.7 else np.array([0.0, 1.0, 0.0])
+    z = np.cross(x, up)
+    towards = light[0] * x + light[1] * np.array(up) + light[2] * z / np.linalg.norm(z)
+    return np.asarray(towards / np.linalg.norm(towards))
 
 
 def _pool(mesh: Mesh) -> int:

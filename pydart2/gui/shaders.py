@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from OpenGL import GL
 
 from pydart2.gui.context import ContextError
@@ -259,6 +260,7 @@ class Program:
         if not GL.glGetProgramiv(self.id, GL.GL_LINK_STATUS):
             raise ContextError(f"this OpenGL refuses a program: {_text(GL.glGetProgramInfoLog(self.id))}")
         self._places: dict[str, int] = {}
+        self._values: dict[str, object] = {}  # as OpenGL has them
 
     def use(self) -> None:
         """Make it current."""
@@ -274,8 +276,10 @@ class Program:
         """Set uniforms of the current program: floats, vectors (3,), (4,), matrices (4, 4); ints are texture units."""
         for name, value in uniforms.items():
             place = self.place(f"u_{name}")
-            if place < 0:
+            known = value.tobytes() if isinstance(value, np.ndarray) else value
+            if place < 0 or self._values.get(name) == known:
                 continue
+            self._values[name] = known
             if isinstance(value, int):
                 GL.glUniform1i(place, value)
             elif isinstance(value, float):

@@ -28,7 +28,7 @@ from pydart2.gui.runtime import Runtime
 from pydart2.simulation.up import up_of
 
 _PICTURE_SIZE = (1280, 720)
-_ACTIVE, _PAUSED = 0.036, 0.25  # s from one picture to the next
+_ACTIVE, _PAUSED = 1.0 / 30.0, 0.25  # s from one picture to the next
 _WAIT_MS = 2
 _SLICE = 0.005  # s of simulation before Qt has its turn
 _ROOM = 800  # pixels of the window below which the inspector folds away, so that the picture keeps most of them
@@ -167,6 +167,7 @@ class PyQt5Window(Scripted):
         self._due = time.monotonic()  # the next picture
         self.renderTimer = QTimer(self)
         self.renderTimer.setSingleShot(True)
+        self.renderTimer.setTimerType(Qt.PreciseTimer)
         self.renderTimer.timeout.connect(self.renderTimerEvent)
         self.renderTimer.start(0)
 
