@@ -156,3 +156,17 @@ def test_a_robot_that_got_the_mass_it_lacked_steps() -> None:
         each.step(3)
     np.testing.assert_array_equal(world.x, copy.x)
     assert abs(skel.dq).max() > 0.01
+
+
+@pytest.mark.parametrize("dynamics", ["fast", "engine"])
+def test_the_skeleton_without_inertia_is_the_one_that_reads_nan(dynamics: str) -> None:
+    """The engine does not say which it is, and here another one is faster."""
+    world = pydart2.World(0.001, "skel/chain.skel")
+    world.skeletons[0].dq = np.full(world.skeletons[0].ndofs, 3.0)
+    bare = world.add_empty_skeleton("bare")
+    bare.add_body("link", joint="revolute")
+    world.set_dynamics(dynamics)
+    world.set_blow_up("nan")
+    world.step()
+    assert np.isnan(bare.q).all()
+    assert np.isfinite(world.skeletons[0].q).all()

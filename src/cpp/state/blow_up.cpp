@@ -23,6 +23,15 @@ std::string needs_mass(const BodyNode& body)
          + "' moves nothing that has inertia: give it, or a body below it, mass and inertia, or weld it";
 }
 
+/// The first in the order of steps; null if none.
+const BodyNode* find_weightless_body(const WorldRecord& record)
+{
+  for (const auto& item : record.skeletons)
+    if (const auto* body = item->skeleton->isMobile() ? weightless_body(*item->skeleton) : nullptr)
+      return body;
+  return nullptr;
+}
+
 const dart::dynamics::DegreeOfFreedom* find_fastest_dof(const WorldRecord& record)
 {
   const dart::dynamics::DegreeOfFreedom* fastest = nullptr;
@@ -61,9 +70,8 @@ void engine_failed(const WorldRecord& record, const std::string& error, const st
 
 std::string suspect(const WorldRecord& record)
 {
-  for (const auto& item : record.skeletons)
-    if (const auto* body = item->skeleton->isMobile() ? weightless_body(*item->skeleton) : nullptr)
-      return needs_mass(*body);
+  if (const auto* body = find_weightless_body(record))
+    return needs_mass(*body);
   const auto* fastest = find_fastest_dof(record);
   if (fastest == nullptr)
     return "no skeleton has a dof";
@@ -71,7 +79,7 @@ std::string suspect(const WorldRecord& record)
          + text(fastest->getVelocity());
 }
 
-std::vector<SkeletonRef> insane_or_fastest(const WorldRecord& record)
+std::vector<SkeletonRef> insane_or_suspect(const WorldRecord& record)
 {
   std::vector<SkeletonRef> found;
   for (const auto& item : record.plan.others)
@@ -79,9 +87,15 @@ std::vector<SkeletonRef> insane_or_fastest(const WorldRecord& record)
       found.push_back(item);
   if (const auto i = record.plan.free.find_insane(check::huge); i < record.plan.free.size())
     found.push_back(record.plan.owners[i]);
-  const auto* fastest = found.empty() ? find_fastest_dof(record) : nullptr;
+  if (!found.empty())
+    return found;
+  dart::dynamics::ConstSkeletonPtr suspect;
+  if (const auto* body = find_weightless_body(record))
+    suspect = body->getSkeleton();
+  else if (const auto* fastest = find_fastest_dof(record))
+    suspect = fastest->getSkeleton();
   for (const auto& item : record.skeletons)
-    if (fastest != nullptr && item->skeleton == fastest->getSkeleton())
+    if (item->skeleton == suspect)
       found.push_back(item);
   return found;
 }

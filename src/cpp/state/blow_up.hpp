@@ -40,7 +40,7 @@ std::string text(double value);
 /// The place to look at where the engine does not say which it is.
 std::string suspect(const WorldRecord& record);
 
-/// The skeletons whose state is not one any more; where all are, that of the fastest dof.
-std::vector<SkeletonRef> insane_or_fastest(const WorldRecord& record);
+/// The skeletons whose state is not one any more; where all are, the one that suspect() names.
+std::vector<SkeletonRef> insane_or_suspect(const WorldRecord& record);
 
 } // namespace pydart2

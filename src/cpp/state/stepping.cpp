@@ -305,7 +305,7 @@ void advance(WorldRecord& record)
     phases(record);
   } catch (const Error& error) {
     const bool blown_up = error.kind() == Kind::engine || dynamic_cast<const BlowUp*>(&error) != nullptr;
-    const auto concerned = blown_up && record.nan_at_blow_up ? insane_or_fastest(record) : std::vector<SkeletonRef>();
+    const auto concerned = blown_up && record.nan_at_blow_up ? insane_or_suspect(record) : std::vector<SkeletonRef>();
     const std::string where = error.kind() == Kind::engine ? suspect(record) : "";
     go_back(record);
     if (!concerned.empty()) {
