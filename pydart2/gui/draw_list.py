@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 NOBODY = (-1, -1)
-_OPAQUE = np.ones(4)
+_OPAQUE, _ORIGIN = np.ones(4), np.eye(4)
 
 _MARKER = (0.95, 0.35, 0.15)
 _FORCE = (0.9, 0.15, 0.15)
@@ -215,13 +216,15 @@ class Scene:
     ) -> None:
         """Add an arrow between two points (3,), m; the head is part of its length. No arrow if they are the same."""
         tail, tip = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
-        length = float(np.linalg.norm(tip - tail))
+        length = math.dist(tail, tip)
         if not 1e-9 < length < np.inf:
             return
         head = min(5.0 * radius, 0.5 * length)
-        neck = tip - (tip - tail) * (head / length)
-        self.add(geometry.cylinder(), between(tail, neck), (radius, radius, length - head), rgba, casts=False)
-        self.add(geometry.cone(), between(neck, tip), (2.2 * radius, 2.2 * radius, head), rgba, casts=False)
+        shaft = between(tail, tip, 0.5 - 0.5 * head / length)
+        cone = shaft.copy()
+        cone[:3, 3] += 0.5 * (tip - tail)
+        self.add(geometry.cylinder(), shaft, (radius, radius, length - head), rgba, casts=False)
+        self.add(geometry.cone(), cone, (2.2 * radius, 2.2 * radius, head), rgba, casts=False)
 
     def add_line(self, start: ArrayLike, end: ArrayLike, radius: float, rgba: ArrayLike) -> None:
         """Add a thin rod between two points (3,), m."""
@@ -272,6 +275,6 @@ def _is_drawn(node: ShapeNode) -> bool:
 
 
 def _at(position: Array) -> Array:
-    pose = np.eye(4)
+    pose = _ORIGIN.copy()
     pose[:3, 3] = position
     return pose

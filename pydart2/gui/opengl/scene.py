@@ -70,13 +70,13 @@ class OpenGLScene:
         with _undone():
             if hasattr(sim, "render"):
                 sim.render()
-            if hasattr(sim, "render_with_ri"):
+            if (draw_in_world := getattr(sim, "render_with_ri", None)) is not None:
                 self._set_up_fixed_pipeline()
-                sim.render_with_ri(self.renderer)
-        if hasattr(sim, "draw_with_ri"):
+                draw_in_world(self.renderer)
+        if (draw_over := getattr(sim, "draw_with_ri", None)) is not None:
             with _undone():
                 self.enable2D()
-                sim.draw_with_ri(self.renderer)
+                draw_over(self.renderer)
 
     def _begin(self, sim: Any, camera: Camera) -> None:
         renderer = drawing.renderer()

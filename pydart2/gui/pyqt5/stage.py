@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -50,15 +51,21 @@ class Stage:
         elif hasattr(sim, "render"):
             self._ask(sim.render)
 
-    def render_with_ri(self, ri: Any) -> None:
-        """Let user code draw in the world."""
-        self._ask(self.runtime.callbacks["render_with_ri"], ri)
+    @property
+    def render_with_ri(self) -> Callable[[Any], None] | None:
+        """Lets user code draw in the world; None if there is none."""
+        return self._asking("render_with_ri")
 
-    def draw_with_ri(self, ri: Any) -> None:
-        """Let user code draw over the picture."""
-        self._ask(self.runtime.callbacks["draw_with_ri"], ri)
+    @property
+    def draw_with_ri(self) -> Callable[[Any], None] | None:
+        """Lets user code draw over the picture; None if there is none."""
+        return self._asking("draw_with_ri")
 
-    def _ask(self, function: Any, *args: Any) -> None:
-        if function is not None and self.runtime.error is None:
+    def _asking(self, event: str) -> Callable[[Any], None] | None:
+        function = self.runtime.callbacks[event]
+        return None if function is None else lambda ri: self._ask(function, ri)
+
+    def _ask(self, function: Callable[..., object], *args: Any) -> None:
+        if self.runtime.error is None:
             with self.runtime.guarded():
                 function(*args)
