@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import time
 from pathlib import Path
 from typing import Any
 
@@ -531,6 +532,30 @@ def test_an_error_in_user_code_is_shown_and_can_be_dismissed(
     click(window, window.playAction)
     wait_for(lambda: window.sim.frame > 5)
     assert "gain is 1 / 0" in capsys.readouterr().err
+
+
+def test_texts_change_ten_times_a_second_and_stop_at_what_is_shown(
+    make_window: MakeWindow, cubes: pydart2.World, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    window = make_window(cubes)
+    clock = [time.monotonic() + 10.0]
+    monkeypatch.setattr("pydart2.gui.pyqt5.window.time.monotonic", lambda: clock[0])
+    frame = window.statusView.frame
+    window.runtime.play()
+    window.runtime.step()
+    window.synchronize()
+    assert frame.text().startswith("frame 1 ")
+    window.runtime.step()
+    clock[0] += 0.05
+    window.synchronize()
+    assert (window.rangeSlider.value(), frame.text().split(" ")[1]) == (2, "1")
+    clock[0] += 0.06
+    window.synchronize()
+    assert frame.text().startswith("frame 2 ")
+    window.runtime.step()
+    window.runtime.pause()
+    window.synchronize()
+    assert frame.text().startswith("frame 3 ")
 
 
 def test_long_words_push_nothing_off_the_screen(make_window: MakeWindow, cubes: pydart2.World) -> None:
