@@ -31,7 +31,7 @@ _PICTURE_SIZE = (1280, 720)
 _ACTIVE, _PAUSED = 1.0 / 30.0, 0.25  # s from one picture to the next
 _TOLD = 0.1  # s from one text to the next while it moves; nobody reads faster
 _WAIT_MS = 2
-_SLICE = 0.005  # s of simulation before Qt has its turn
+_SLICE = 0.003  # s of simulation before Qt has its turn
 _ROOM = 800  # pixels of the window below which the inspector folds away, so that the picture keeps most of them
 
 
