@@ -29,6 +29,7 @@ std::unique_ptr<TreeDynamics> TreeDynamics::of(Skeleton& skeleton)
   for (std::size_t tree = 0; tree < skeleton.getNumTrees(); ++tree)
     if (!made->add(*skeleton.getRootBodyNode(tree), nullptr))
       return nullptr;
+  made->look();
   return made;
 }
 

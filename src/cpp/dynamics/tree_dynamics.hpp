@@ -37,8 +37,8 @@ public:
   /// Whether there are so many links in the world that what was not touched since the step before is not in the cache.
   void set_fetch_ahead(bool enable) { fetch_ahead_ = enable; }
 
-  /// At what hangs on the bodies, unless it did at this count of the changes of models.
-  void look(long changes);
+  /// With what hangs on the bodies, unless it has at this count of the changes of models.
+  void keep_up(long changes);
 
   /// As Skeleton::computeForwardDynamics(), integrateVelocities(), computeImpulseForwardDynamics() and
   /// integratePositions(). Only where integrate_velocities() comes next may accelerate() share numbers.
@@ -103,6 +103,9 @@ private:
   explicit TreeDynamics(dart::dynamics::Skeleton& skeleton);
   bool add(dart::dynamics::BodyNode& body, Link* parent);
 
+  /// At what hangs on the bodies.
+  void look();
+
   template <class Visit>
   static void visit(const Link& link, Visit&& visit);
 
@@ -144,7 +147,7 @@ private:
 
   dart::dynamics::Skeleton& skeleton_;
   std::vector<std::unique_ptr<Link>> links_; ///< Parents first.
-  long looked_ = -1; ///< At this count of changes.
+  long changes_ = -1; ///< That it has kept up with.
   bool fetch_ahead_ = false;
   Numbers* shared_ = nullptr; ///< Where numbers are; null for the engine's.
   bool moved_ = false;        ///< In the last step.

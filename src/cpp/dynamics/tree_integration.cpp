@@ -86,10 +86,14 @@ void TreeDynamics::clear_internal_forces()
     visit(*link, [](auto& joint) { state(joint).mForces.setZero(); });
 }
 
-void TreeDynamics::look(long changes)
+void TreeDynamics::keep_up(long changes)
 {
-  if (std::exchange(looked_, changes) == changes)
-    return;
+  if (std::exchange(changes_, changes) != changes)
+    look();
+}
+
+void TreeDynamics::look()
+{
   for (auto& link : links_) {
     const auto& others = link->body->*Body::others;
     link->others.assign(others.begin(), others.end());

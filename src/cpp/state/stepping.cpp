@@ -52,7 +52,7 @@ TreeDynamics* choose_mover(const WorldRecord& record, SkeletonRecord& item)
   auto* ours = record.dynamics == Dynamics::fast ? item.dynamics() : nullptr;
   if (ours == nullptr || ours->is_for_engine())
     return nullptr;
-  ours->look(record.plan.changes);
+  ours->keep_up(record.plan.changes);
   ours->set_fetch_ahead(record.skeletons.size() > many);
   return ours;
 }
