@@ -9,15 +9,20 @@ import enum
 import math
 import os
 import sys
+import threading
 import time
 import traceback
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any
 
 from pydart2.gui.callbacks import Callbacks
 from pydart2.gui.pacing import Pacer
 from pydart2.recording import Recording
+from pydart2.world import World
+
+_WAIT = 0.001  # s, for the next step to fall due
 
 
 class Mode(enum.Enum):
@@ -50,6 +55,8 @@ class Runtime:
         Speed and real-time factor.
     before_step, after_step : list of functions
         Called around each step, after `on_step_event` and before the next one.
+    steps_beside : bool
+        Whether `simulating_beside` may do steps; `before_step` and `after_step` are then called in another thread too.
     on_error : list of functions
         Called with the traceback's text when user code has raised.
     errors : list of str
@@ -66,6 +73,8 @@ class Runtime:
         self.after_step: list[Callable[[], object]] = []
         self.on_error: list[Callable[[str], object]] = []
         self.errors: list[str] = []
+        self.steps_beside = True
+        self._beside = ThreadPoolExecutor(max_workers=1)
         self.set_simulation(sim)
 
     def set_simulation(self, sim: Any) -> None:
@@ -119,15 +128,18 @@ class Runtime:
     def _step(self) -> bool:
         go_on = False
         with self.guarded():
-            self.callbacks.call("on_step_event")
-            for hook in self.before_step:
-                hook()
-            result = self.callbacks.call("step")
-            go_on = result is None or bool(result)
-            for hook in self.after_step:
-                hook()
+            go_on = self._do_step()
         self.frame = max(self.num_frames - 1, 0)
         return go_on
+
+    def _do_step(self) -> bool:
+        self.callbacks.call("on_step_event")
+        for hook in self.before_step:
+            hook()
+        result = self.callbacks.call("step")
+        for hook in self.after_step:
+            hook()
+        return result is None or bool(result)
 
     def reset(self) -> None:
         """Reset the simulation; go on playing if it was."""
@@ -219,6 +231,38 @@ class Runtime:
                 self.pacer.restart()
                 break
             simulated = now
+
+    @contextmanager
+    def simulating_beside(self) -> Iterator[None]:
+        """Within it, while it plays, another thread does the steps that fall due; nobody may ask the world anything.
+
+        Only where the engine alone acts in a step: user code has its turns in `advance`, in the thread of the window.
+        """
+        if not (self.playing and self.steps_beside and self._is_the_engine_alone()):
+            yield
+            return
+        stop = threading.Event()
+        steps = self._beside.submit(self._simulate_until, stop)
+        try:
+            yield
+        finally:
+            stop.set()
+            with self.guarded():
+                steps.result()
+            self.frame = max(self.num_frames - 1, 0)
+
+    def _is_the_engine_alone(self) -> bool:
+        sim, step = self.sim, self.callbacks["step"]
+        ours = isinstance(sim, World) and getattr(step, "__func__", None) is World.step and not sim._controlled
+        return ours and self.callbacks["on_step_event"] is None
+
+    def _simulate_until(self, stop: threading.Event) -> None:
+        world, pacer = self.sim, self.pacer
+        while not stop.is_set():
+            if pacer.due(self._clock(), world.t) > 0.5 * world.dt:
+                self._do_step()
+            else:
+                stop.wait(_WAIT)
 
     def _play_step(self) -> None:
         if not self._step() and self.playing:

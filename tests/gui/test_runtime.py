@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+import threading
+import time
 
 import pytest
 
@@ -121,6 +123,57 @@ def test_on_step_event_comes_before_each_step_and_not_from_world_step() -> None:
     runtime.after_step.append(lambda: calls.append("after"))
     runtime.step()
     assert calls == ["step", "event", "before", "step", "after"]
+
+
+def test_steps_go_on_beside_a_picture(cubes: pydart2.World) -> None:
+    runtime, threads = Runtime(cubes), set()
+    runtime.after_step.append(lambda: threads.add(threading.current_thread()))
+    runtime.play()
+    with runtime.simulating_beside():
+        time.sleep(0.3)
+    assert 0.05 < cubes.t < 0.4
+    assert threads
+    assert threading.main_thread() not in threads
+    assert runtime.frame == cubes.frame == len(cubes.recording.t) - 1
+    stopped = cubes.frame
+    time.sleep(0.05)
+    assert cubes.frame == stopped
+
+
+def test_user_code_never_runs_beside_a_picture(cubes: pydart2.World) -> None:
+    class Own(pydart2.World):
+        def step(self, n: int = 1) -> None:
+            super().step(n)
+
+    class Listening(pydart2.World):
+        def on_step_event(self) -> None: ...
+
+    driven = pydart2.World(0.001, "./data/skel/cubes.skel")
+    driven.skeletons[-1].set_controller(lambda: [0.0] * 6)
+    own, listening = (kind(0.001, "./data/skel/cubes.skel") for kind in (Own, Listening))
+    captured = Runtime(pydart2.World(0.001, "./data/skel/cubes.skel"))
+    captured.steps_beside = False
+    for runtime in (Runtime(own), Runtime(listening), Runtime(driven), captured, Runtime(Counter())):
+        runtime.play()
+        with runtime.simulating_beside():
+            time.sleep(0.02)
+        assert getattr(runtime.sim, "frame", 0) == 0
+    paused = Runtime(cubes)
+    with paused.simulating_beside():
+        time.sleep(0.02)
+    assert cubes.frame == 0
+
+
+def test_a_step_that_fails_beside_a_picture_pauses_and_is_noted(cubes: pydart2.World) -> None:
+    runtime, threads = Runtime(cubes), set()
+    runtime.on_error.append(lambda _text: threads.add(threading.current_thread()))
+    cubes.skeletons[-1].dq = [1e29] * 6
+    runtime.play()
+    with runtime.simulating_beside():
+        time.sleep(0.1)
+    assert not runtime.playing
+    assert "SimulationError" in runtime.errors[0]
+    assert threads == {threading.main_thread()}
 
 
 def test_replay_shows_the_recording_at_its_own_speed(cubes: pydart2.World) -> None:

@@ -79,10 +79,12 @@ class ImageWidget(Picture, QWidget):
         """Draw."""
         start = time.perf_counter()
         with self.current():
-            rows = self.to_show().read_rows()
-            height, width = rows.shape[:2]
-            memory: Any = rows.data  # mirrored() copies it
-            image = QImage(memory, width, height, 4 * width, QImage.Format_RGBX8888).mirrored()
+            target = self.to_show()
+            with self.viewer.runtime.simulating_beside():  # OpenGL's threads may not be ready
+                rows = target.read_rows()
+                height, width = rows.shape[:2]
+                memory: Any = rows.data  # mirrored() copies it
+                image = QImage(memory, width, height, 4 * width, QImage.Format_RGBX8888).mirrored()
             self.begin_next()
         painter = QPainter(self)
         painter.drawImage(QRect(0, 0, self.width(), self.height()), image)

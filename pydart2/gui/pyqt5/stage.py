@@ -47,7 +47,8 @@ class Stage:
             scene = Scene()
             with self.runtime.guarded():
                 scene = self.overlays.scene(sim)
-            drawing.draw(scene, background=True)
+            with self.runtime.simulating_beside():
+                drawing.draw(scene, background=True)
         elif hasattr(sim, "render"):
             self._ask(sim.render)
 

@@ -103,6 +103,7 @@ class PyQt5Window(Scripted):
         self.runtime.before_step.append(self.glwidget.apply_pull)
         self.runtime.after_step.append(self._after_step)
         self.runtime.on_error.append(self.errorPane.show_error)
+        self.captureAction.toggled.connect(self._pictures_of_steps)
         self._show_simulation()
         self.topLeft()
 
@@ -318,6 +319,9 @@ class PyQt5Window(Scripted):
         with runtime.guarded():
             self.statusView.show(runtime, self.callbacks.call("status"))
             self.inspector.refresh(runtime.frame_time)
+
+    def _pictures_of_steps(self, on: bool) -> None:
+        self.runtime.steps_beside = not on  # pictures are taken in this thread
 
     def _after_step(self) -> None:
         self.after_reset = False
