@@ -29,6 +29,7 @@ std::unique_ptr<TreeDynamics> TreeDynamics::of(Skeleton& skeleton)
   for (std::size_t tree = 0; tree < skeleton.getNumTrees(); ++tree)
     if (!made->add(*skeleton.getRootBodyNode(tree), nullptr))
       return nullptr;
+  made->look();
   return made;
 }
 
@@ -48,6 +49,11 @@ bool TreeDynamics::add(BodyNode& body, Link* parent)
   link.tree = body.getTreeIndex();
   link.inertia = &body.getSpatialInertia();
   link.external_force = &body.getExternalForceLocal();
+  link.articulated = &(body.*Body::inertia);
+  link.articulated_implicit = &(body.*Body::inertia_implicit);
+  link.transform = &(joint.*JointOf::transform);
+  link.partial_acceleration = &(body.*Body::partial_acceleration);
+  link.bias_force = &(body.*Body::bias_force);
 
   const auto& type = typeid(joint);
   if (type == typeid(RevoluteJoint))
@@ -77,6 +83,31 @@ bool TreeDynamics::add(BodyNode& body, Link* parent)
   return true;
 }
 
+bool TreeDynamics::may_share() const
+{
+  bool stale = fetch_ahead_ && moved_ && !pushed_off_;
+  for (std::size_t tree = 0; tree < skeleton_.getNumTrees() && stale; ++tree)
+    stale = engine::SkeletonMembers::tree(skeleton_, tree).mArticulatedInertia;
+  return stale;
+}
+
+void TreeDynamics::put_numbers(Numbers* shared)
+{
+  if (shared == shared_)
+    return;
+  shared_ = shared;
+  for (auto& link : links_) {
+    BodyNode& body = *link->body;
+    link->articulated = shared == nullptr ? &(body.*Body::inertia) : &shared->inertia;
+    link->articulated_implicit = shared == nullptr ? &(body.*Body::inertia_implicit) : &shared->inertia_implicit;
+    link->transform = shared == nullptr ? &(link->joint->*JointOf::transform) : &shared->transform;
+    link->partial_acceleration = shared == nullptr ? &(body.*Body::partial_acceleration) : &shared->partial_acceleration;
+    link->bias_force = shared == nullptr ? &(body.*Body::bias_force) : &shared->bias_force;
+    if (shared != nullptr)
+      ++shared;
+  }
+}
+
 bool TreeDynamics::is_for_engine() const
 {
   for (const auto& link : links_)
@@ -103,16 +134,24 @@ void TreeDynamics::fetch_numbers(std::size_t i) const
   const Link& link = *links_[i];
   fetch(*link.external_force);
   fetch(*link.inertia, *link.inertia);
-  fetch(link.body->*Body::partial_acceleration, link.body->*Body::bias_force);
+  if (shared_ == nullptr)
+    fetch(link.body->*Body::partial_acceleration, link.body->*Body::bias_force);
+  else
+    fetch(link.body->*Body::force);
   fetch(link.frame->*FrameOf::transform, link.frame->*FrameOf::acceleration);
   fetch(link.joint->*JointOf::properties, link.joint->*JointOf::transform_dirty);
   fetch_flags(i);
 }
 
-void TreeDynamics::accelerate()
+void TreeDynamics::accelerate(bool share)
 {
   const double dt = skeleton_.getTimeStep();
   const Eigen::Vector3d gravity = skeleton_.getGravity();
+  thread_local std::vector<Numbers> numbers;
+  if (numbers.size() < links_.size())
+    numbers.resize(links_.size());
+  put_numbers(share && may_share() ? numbers.data() : nullptr);
+  pushed_off_ = false;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     fetch_numbers(i + 1);
     auto& link = *links_[i];
@@ -131,43 +170,52 @@ void TreeDynamics::accelerate()
 [[gnu::flatten]] void TreeDynamics::update_motion(Link& link)
 {
   Joint& joint = *link.joint;
-  BodyNode& body = *link.body;
-  if (joint.*JointOf::transform_dirty) {
-    if (link.axis != nullptr) {
-      const auto& q = static_cast<RevoluteJoint&>(joint).getPositionsStatic();
-      joint.*JointOf::transform = joint.getTransformFromParentBodyNode() * spatial::turn(*link.axis * q)
-                                  * joint.getTransformFromChildBodyNode().inverse();
-      joint.*JointOf::transform_dirty = false;
-    } else {
-      joint.getRelativeTransform();
-    }
-  }
-  const Eigen::Isometry3d& T = joint.*JointOf::transform;
+  update_transform(link);
+  const Eigen::Isometry3d& T = *link.transform;
   if (link.entity->*EntityOf::transform_dirty) {
     link.frame->*FrameOf::transform = link.parent_frame->*FrameOf::transform * T;
     link.entity->*EntityOf::transform_dirty = false;
   }
-  if (link.entity->*EntityOf::velocity_dirty) {
+  link.unread = link.entity->*EntityOf::velocity_dirty;
+  if (link.unread) {
+    Vector6 relative = joint.*JointOf::velocity;
     if (joint.*JointOf::velocity_dirty) {
-      visit(link, [&](auto& typed) {
-        joint.*JointOf::velocity = jacobian(typed, link.constant) * state(typed).mVelocities;
-      });
-      joint.*JointOf::velocity_dirty = false;
+      visit(link, [&](auto& typed) { relative = jacobian(typed, link.constant) * state(typed).mVelocities; });
+      if (shared_ == nullptr) {
+        joint.*JointOf::velocity = relative;
+        joint.*JointOf::velocity_dirty = false;
+      }
     }
-    link.frame->*FrameOf::velocity
-        = spatial::to_child(T, link.parent_frame->*FrameOf::velocity) + joint.*JointOf::velocity;
+    link.frame->*FrameOf::velocity = spatial::to_child(T, link.parent_frame->*FrameOf::velocity) + relative;
     link.entity->*EntityOf::velocity_dirty = false;
   }
-  if (body.*Body::partial_acceleration_dirty) {
-    if (link.kind == Kind::none)
-      (body.*Body::partial_acceleration).setZero();
-    visit(link, [&](auto& typed) {
-      const Vector6 relative = jacobian(typed, link.constant) * state(typed).mVelocities;
-      body.*Body::partial_acceleration = spatial::cross(link.frame->*FrameOf::velocity, relative)
-                                         + jacobian_rate(typed, link.constant) * state(typed).mVelocities;
-    });
-    body.*Body::partial_acceleration_dirty = false;
+  if (shared_ == nullptr && !(link.body->*Body::partial_acceleration_dirty))
+    return;
+  if (link.kind == Kind::none)
+    link.partial_acceleration->setZero();
+  visit(link, [&](auto& typed) {
+    const Vector6 relative = jacobian(typed, link.constant) * state(typed).mVelocities;
+    *link.partial_acceleration = spatial::cross(link.frame->*FrameOf::velocity, relative)
+                                 + jacobian_rate(typed, link.constant) * state(typed).mVelocities;
+  });
+  if (shared_ == nullptr)
+    link.body->*Body::partial_acceleration_dirty = false;
+}
+
+/// Of the joint.
+void TreeDynamics::update_transform(Link& link)
+{
+  Joint& joint = *link.joint;
+  if (joint.*JointOf::transform_dirty && link.axis != nullptr) {
+    const auto& q = static_cast<RevoluteJoint&>(joint).getPositionsStatic();
+    *link.transform = joint.getTransformFromParentBodyNode() * spatial::turn(*link.axis * q)
+                      * joint.getTransformFromChildBodyNode().inverse();
+    joint.*JointOf::transform_dirty = shared_ != nullptr;
+    return;
   }
+  const auto& T = joint.getRelativeTransform();
+  if (shared_ != nullptr)
+    *link.transform = T;
 }
 
 /// The articulated inertias of the trees in which they are out of date.
@@ -178,24 +226,24 @@ void TreeDynamics::update_inertias()
     if (engine::SkeletonMembers::tree(skeleton_, (*link)->tree).mArticulatedInertia)
       update_inertia(**link, dt);
   for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
-    engine::SkeletonMembers::tree(skeleton_, tree).mArticulatedInertia = false;
+    engine::SkeletonMembers::tree(skeleton_, tree).mArticulatedInertia = shared_ != nullptr;
 }
 
 /// Without and with implicit damping and springs; what is the same is formed once.
 [[gnu::flatten]] void TreeDynamics::update_inertia(Link& link, double dt)
 {
-  Matrix6& plain = link.body->*Body::inertia;
-  Matrix6& implicit = link.body->*Body::inertia_implicit;
+  Matrix6& plain = *link.articulated;
+  Matrix6& implicit = *link.articulated_implicit;
   link.implicit = false;
   plain = *link.inertia;
   for (const Link* child : link.children) {
-    add_child_inertia(*child, child->body->*Body::inertia, false, plain);
+    add_child_inertia(*child, *child->articulated, false, plain);
     link.implicit |= child->implicit;
   }
   implicit = link.implicit ? *link.inertia : plain;
   if (link.implicit)
     for (const Link* child : link.children)
-      add_child_inertia(*child, child->body->*Body::inertia_implicit, true, implicit);
+      add_child_inertia(*child, *child->articulated_implicit, true, implicit);
   if (link.kinematic)
     return;
   visit(link, [&](auto& joint) {
@@ -220,7 +268,7 @@ void TreeDynamics::update_inertias()
 /// Adds what a body sees of its child's articulated inertia through the child's joint.
 [[gnu::flatten]] void TreeDynamics::add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum)
 {
-  const Eigen::Isometry3d& T = child.joint->*JointOf::transform;
+  const Eigen::Isometry3d& T = *child.transform;
   if (child.kinematic || child.kind == Kind::none) {
     sum += spatial::inertia_to_parent(T, inertia);
     return;
@@ -240,7 +288,7 @@ void TreeDynamics::update_inertias()
 {
   BodyNode& body = *link.body;
   const Matrix6& I = *link.inertia;
-  Vector6& weight = body.*Body::gravity_force;
+  Vector6 weight;
   if (body.getGravityMode()) {
     Vector6 g = Vector6::Zero();
     g.tail<3>().noalias() = (link.frame->*FrameOf::transform).linear().transpose() * gravity;
@@ -249,23 +297,22 @@ void TreeDynamics::update_inertias()
     weight.setZero();
   }
   const Vector6& V = link.frame->*FrameOf::velocity;
-  Vector6& bias = body.*Body::bias_force;
+  Vector6& bias = *link.bias_force;
   bias = -spatial::minus_cross_force(V, I * V) - *link.external_force - weight;
   for (const Link* child : link.children)
     add_child_bias_force(*child, bias);
   if (link.kind == Kind::none)
     return;
-  const Vector6 force = body.*Body::inertia_implicit * body.*Body::partial_acceleration + bias;
+  const Vector6 force = *link.articulated_implicit * *link.partial_acceleration + bias;
   visit(link, [&](auto& joint) { update_total_force(joint, link, force, dt); });
 }
 
 [[gnu::flatten]] void TreeDynamics::add_child_bias_force(const Link& child, Vector6& sum)
 {
-  const BodyNode& body = *child.body;
-  const Vector6& force = body.*Body::bias_force;
-  const Matrix6& I = body.*Body::inertia_implicit;
-  const Vector6& partial = body.*Body::partial_acceleration;
-  const Eigen::Isometry3d& T = child.joint->*JointOf::transform;
+  const Vector6& force = *child.bias_force;
+  const Matrix6& I = *child.articulated_implicit;
+  const Vector6& partial = *child.partial_acceleration;
+  const Eigen::Isometry3d& T = *child.transform;
   if (child.kind == Kind::none)
     sum += spatial::to_parent(T, force + I * partial);
   visit(child, [&](auto& joint) {
@@ -317,9 +364,9 @@ void TreeDynamics::update_total_force(GenericJoint<Space>& joint, const Link& li
 {
   BodyNode& body = *link.body;
   Joint& joint = *link.joint;
-  const Matrix6& I = body.*Body::inertia_implicit;
-  const Vector6 from_parent
-      = spatial::to_child(joint.*JointOf::transform, link.parent_frame->*FrameOf::acceleration);
+  const Matrix6& I = *link.articulated_implicit;
+  const Vector6 from_parent = spatial::to_child(*link.transform, link.parent_frame->*FrameOf::acceleration);
+  Vector6 primary = joint.*JointOf::primary_acceleration;
   visit(link, [&](auto& typed) {
     using Space = SpaceOf<decltype(typed)>;
     const auto& J = jacobian(typed, link.constant);
@@ -328,14 +375,17 @@ void TreeDynamics::update_total_force(GenericJoint<Space>& joint, const Link& li
       const typename Space::Vector taken = JI * from_parent, left = typed.*Generic<Space>::total_force - taken;
       assign<typename Space::Vector>(state(typed).mAccelerations, typed.*Generic<Space>::inverse_inertia_implicit * left);
     }
-    joint.*JointOf::primary_acceleration = J * state(typed).mAccelerations;
-    joint.*JointOf::primary_acceleration_dirty = false;
+    primary = J * state(typed).mAccelerations;
+    if (shared_ == nullptr) {
+      joint.*JointOf::primary_acceleration = primary;
+      joint.*JointOf::primary_acceleration_dirty = false;
+    }
   });
   Vector6& a = link.frame->*FrameOf::acceleration;
-  a = from_parent + joint.*JointOf::primary_acceleration + body.*Body::partial_acceleration;
+  a = from_parent + primary + *link.partial_acceleration;
   link.entity->*EntityOf::acceleration_dirty = false;
   Vector6& F = body.*Body::force;
-  F = body.*Body::bias_force;
+  F = *link.bias_force;
   F.noalias() += I * a;
   if (link.kinematic)
     visit(link, [&](auto& typed) { update_driving_force(typed, link, dt); });

@@ -14,9 +14,12 @@ namespace pydart2 {
 /// DART's bits.
 ///
 /// The numbers are those that DART keeps in its bodies and joints, and so are the flags that say which are out of date:
-/// nothing is copied, whoever asks the engine gets the same, and what changes in a model counts at once. What makes it
+/// no state is copied, whoever asks the engine gets the same, and what changes in a model counts at once. What makes it
 /// faster is what is left out: virtual calls, reference counts, one search through the tree for each joint that moves,
 /// assertions, and the second articulated inertia where neither damping nor springs make it another one.
+///
+/// Where there are many skeletons, waiting for memory takes most of the time. What only serves a step on the way is then
+/// left in numbers that all skeletons share, and stays out of date in the engine, which forms it when it is asked for.
 ///
 /// Valid until the tree changes.
 class TreeDynamics
@@ -34,9 +37,12 @@ public:
   /// Whether there are so many links in the world that what was not touched since the step before is not in the cache.
   void set_fetch_ahead(bool enable) { fetch_ahead_ = enable; }
 
+  /// With what hangs on the bodies, unless it has at this count of the changes of models.
+  void keep_up(long changes);
+
   /// As Skeleton::computeForwardDynamics(), integrateVelocities(), computeImpulseForwardDynamics() and
-  /// integratePositions().
-  void accelerate();
+  /// integratePositions(). Only where integrate_velocities() comes next may accelerate() share numbers.
+  void accelerate(bool share = false);
   void integrate_velocities(double dt);
   void apply_impulses();
   void integrate_positions(double dt);
@@ -47,8 +53,22 @@ public:
   /// Whether no body, since accelerate(), is farther from the origin along an axis.
   bool is_within(double distance) const;
 
+  /// Whether of the forces of this step only the internal ones are to be cleared, and how, as
+  /// Skeleton::clearInternalForces(): who looks at them in the midst of a step finds them in the cache.
+  void look_at_forces(bool commands_at_rest);
+  bool forces_at_rest() const { return forces_at_rest_; }
+  void clear_internal_forces();
+
 private:
   enum class Kind { none, r1, r2, r3, so3, se3 };
+
+  /// Of a link, from one pass of a step to the next.
+  struct Numbers
+  {
+    Matrix6 inertia, inertia_implicit; ///< Articulated.
+    Eigen::Isometry3d transform;       ///< Of the joint.
+    Vector6 partial_acceleration, bias_force;
+  };
 
   struct Link
   {
@@ -65,18 +85,32 @@ private:
     const Eigen::Vector3d* axis = nullptr; ///< Of a revolute joint.
     bool constant = true;                  ///< The joint's Jacobian never changes.
     std::vector<Link*> children;           ///< In the engine's order, in which their sums are formed.
+    std::vector<dart::dynamics::Entity*> others; ///< What else hangs on the body: shapes and markers.
+    bool heard = true;                           ///< Somebody is told when those are out of date.
+
+    // Where those of Numbers are: the engine's, or shared ones.
+    Matrix6* articulated;
+    Matrix6* articulated_implicit;
+    Eigen::Isometry3d* transform;
+    Vector6* partial_acceleration;
+    Vector6* bias_force;
 
     bool kinematic = false; ///< Its motion is prescribed. Brought up to date by each pass.
     bool implicit = false;  ///< The articulated inertia with implicit damping and springs is another one.
+    bool unread = false;    ///< Nobody had asked for its velocity before the step, so for none of the others'.
   };
 
   explicit TreeDynamics(dart::dynamics::Skeleton& skeleton);
   bool add(dart::dynamics::BodyNode& body, Link* parent);
 
+  /// At what hangs on the bodies.
+  void look();
+
   template <class Visit>
   static void visit(const Link& link, Visit&& visit);
 
   void update_motion(Link& link);
+  void update_transform(Link& link);
   void update_inertias();
   void update_inertia(Link& link, double dt);
   static void add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum);
@@ -85,18 +119,25 @@ private:
   template <class Space>
   static void update_total_force(
       dart::dynamics::GenericJoint<Space>& joint, const Link& link, const Vector6& force, double dt);
-  static void update_acceleration(Link& link, double dt);
+  void update_acceleration(Link& link, double dt);
   template <class Space>
   static void update_driving_force(dart::dynamics::GenericJoint<Space>& joint, const Link& link, double dt);
   static void update_bias_impulse(Link& link);
   static void update_velocity_change(Link& link, double dt);
 
+  /// Whether in the next pass numbers may be shared: where they are out of date by its end, and nothing was solved for.
+  bool may_share() const;
+  void put_numbers(Numbers* shared);
+
   void mark_positions();
   void mark_velocities();
+  void mark_predicted_velocities();
   void mark_accelerations();
   static void mark_position(Link& link);
   static void mark_velocity(Link& link);
   static void mark_acceleration(Link& link);
+  static void mark_rates(Link& link);
+  void mark_predicted_velocity(Link& link);
   template <class Mark>
   void each_cache(const Mark& mark);
 
@@ -106,7 +147,12 @@ private:
 
   dart::dynamics::Skeleton& skeleton_;
   std::vector<std::unique_ptr<Link>> links_; ///< Parents first.
+  long changes_ = -1; ///< That it has kept up with.
   bool fetch_ahead_ = false;
+  Numbers* shared_ = nullptr; ///< Where numbers are; null for the engine's.
+  bool moved_ = false;        ///< In the last step.
+  bool pushed_off_ = false;   ///< By impulses, in the last step.
+  bool forces_at_rest_ = false;
 };
 
 } // namespace pydart2

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
 #include "dynamics/spatial_inline.hpp"
 #include "dynamics/tree_joints.hpp"
 
@@ -34,7 +38,7 @@ void TreeDynamics::integrate_velocities(double dt)
         changed |= assign<Vector>(s.mVelocities, s.mVelocities + s.mAccelerations * dt);
     });
   if (changed)
-    mark_velocities();
+    mark_predicted_velocities();
   for (auto& link : links_)
     if (link->kind == Kind::se3)
       (link->joint->*JointOf::integrate_velocities)(dt);
@@ -42,6 +46,11 @@ void TreeDynamics::integrate_velocities(double dt)
 
 void TreeDynamics::integrate_positions(double dt)
 {
+  for (std::size_t i = 0; i < links_.size() && fetch_ahead_; ++i) {
+    fetch_flags(i);
+    for (const Entity* other : links_[i]->others)
+      fetch(other->*EntityOf::transform_dirty);
+  }
   bool changed = false;
   for (auto& link : links_)
     visit(*link, [&](auto& joint) {
@@ -55,6 +64,7 @@ void TreeDynamics::integrate_positions(double dt)
       else
         changed |= assign<Vector>(s.mPositions, s.mPositions + dt * s.mVelocities);
     });
+  moved_ = changed;
   if (changed)
     mark_positions();
   for (auto& link : links_)
@@ -62,13 +72,41 @@ void TreeDynamics::integrate_positions(double dt)
       (link->joint->*JointOf::integrate_positions)(dt);
 }
 
+void TreeDynamics::look_at_forces(bool commands_at_rest)
+{
+  static const Vector6 none = Vector6::Zero();
+  forces_at_rest_ = commands_at_rest && std::all_of(links_.begin(), links_.end(), [](const auto& link) {
+    return std::memcmp(link->external_force->data(), none.data(), sizeof none) == 0;
+  });
+}
+
+void TreeDynamics::clear_internal_forces()
+{
+  for (auto& link : links_)
+    visit(*link, [](auto& joint) { state(joint).mForces.setZero(); });
+}
+
+void TreeDynamics::keep_up(long changes)
+{
+  if (std::exchange(changes_, changes) != changes)
+    look();
+}
+
+void TreeDynamics::look()
+{
+  for (auto& link : links_) {
+    const auto& others = link->body->*Body::others;
+    link->others.assign(others.begin(), others.end());
+    link->heard = !std::all_of(others.begin(), others.end(), [](const Entity* other) { return is_unheard(*other); });
+  }
+}
+
 void TreeDynamics::mark_positions()
 {
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    fetch_flags(i + 1);
-    mark_velocity(*links_[i]);
-    mark_acceleration(*links_[i]);
-    mark_position(*links_[i]);
+  for (auto& link : links_) {
+    mark_velocity(*link);
+    mark_acceleration(*link);
+    mark_position(*link);
   }
   const auto mark = [](auto& dirty) {
     dirty.mArticulatedInertia = dirty.mMassMatrix = dirty.mAugMassMatrix = dirty.mInvMassMatrix = dirty.mInvAugMassMatrix
@@ -79,11 +117,17 @@ void TreeDynamics::mark_positions()
 
 void TreeDynamics::mark_velocities()
 {
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    fetch_flags(i + 1);
-    mark_velocity(*links_[i]);
-    mark_acceleration(*links_[i]);
+  for (auto& link : links_) {
+    mark_velocity(*link);
+    mark_acceleration(*link);
   }
+  each_cache([](auto& dirty) { dirty.mCoriolisForces = dirty.mCoriolisAndGravityForces = true; });
+}
+
+void TreeDynamics::mark_predicted_velocities()
+{
+  for (auto& link : links_)
+    mark_predicted_velocity(*link);
   each_cache([](auto& dirty) { dirty.mCoriolisForces = dirty.mCoriolisAndGravityForces = true; });
 }
 
@@ -107,9 +151,9 @@ void TreeDynamics::fetch_flags(std::size_t i) const
   if (!fetch_ahead_ || i >= links_.size())
     return;
   const Link& link = *links_[i];
+  visit(link, [](auto& joint) { fetch(state(joint)); });
   fetch(link.joint->*JointOf::transform_dirty);
   fetch(link.body->*Body::jacobian_dirty);
-  fetch(link.body->*Body::others);
   fetch(link.entity->*EntityOf::transform_dirty);
 }
 
@@ -123,26 +167,33 @@ void TreeDynamics::mark_position(Link& link)
   if (link.entity->*EntityOf::transform_dirty)
     return;
   link.entity->*EntityOf::transform_dirty = true;
-  for (Entity* other : body.*Body::others)
-    if (!(other->*EntityOf::transform_dirty && other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty)
-        || !is_unheard(*other))
+  for (Entity* other : link.others)
+    if (link.heard
+        || !(other->*EntityOf::transform_dirty && other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty))
       other->dirtyTransform();
 }
 
 void TreeDynamics::mark_velocity(Link& link)
+{
+  mark_rates(link);
+  // Who asks for the partial acceleration asks for the velocity, too.
+  if (link.entity->*EntityOf::velocity_dirty)
+    return;
+  link.body->*Body::partial_acceleration_dirty = true;
+  link.entity->*EntityOf::velocity_dirty = true;
+  for (Entity* other : link.others)
+    if (link.heard || !(other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty))
+      other->dirtyVelocity();
+}
+
+/// What changes with the velocities but for body and shapes.
+void TreeDynamics::mark_rates(Link& link)
 {
   Joint& joint = *link.joint;
   BodyNode& body = *link.body;
   joint.*JointOf::velocity_dirty = joint.*JointOf::jacobian_rate_dirty = true;
   if (!(body.*Body::jacobian_rate_dirty && body.*Body::world_jacobian_rate_dirty))
     (body.*Body::mark_jacobian_rate)();
-  body.*Body::partial_acceleration_dirty = true;
-  if (link.entity->*EntityOf::velocity_dirty)
-    return;
-  link.entity->*EntityOf::velocity_dirty = true;
-  for (Entity* other : body.*Body::others)
-    if (!(other->*EntityOf::velocity_dirty && other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
-      other->dirtyVelocity();
 }
 
 void TreeDynamics::mark_acceleration(Link& link)
@@ -152,9 +203,24 @@ void TreeDynamics::mark_acceleration(Link& link)
   if (link.entity->*EntityOf::acceleration_dirty)
     return;
   link.entity->*EntityOf::acceleration_dirty = true;
-  for (Entity* other : link.body->*Body::others)
-    if (!(other->*EntityOf::acceleration_dirty) || !is_unheard(*other))
+  for (Entity* other : link.others)
+    if (link.heard || !(other->*EntityOf::acceleration_dirty))
       other->dirtyAcceleration();
+}
+
+/// After accelerate(), by which nobody has asked for anything of the others that is out of date now.
+void TreeDynamics::mark_predicted_velocity(Link& link)
+{
+  if (link.heard || !link.unread) {
+    mark_velocity(link);
+    return mark_acceleration(link);
+  }
+  mark_rates(link);
+  Joint& joint = *link.joint;
+  joint.*JointOf::acceleration_dirty = joint.*JointOf::primary_acceleration_dirty = true;
+  link.entity->*EntityOf::velocity_dirty = link.entity->*EntityOf::acceleration_dirty = true;
+  if (shared_ == nullptr)
+    link.body->*Body::partial_acceleration_dirty = true;
 }
 
 } // namespace pydart2

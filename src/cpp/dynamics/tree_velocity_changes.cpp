@@ -12,6 +12,10 @@ void TreeDynamics::apply_impulses()
   if (skeleton_.getNumDofs() == 0)
     return;
   const double dt = skeleton_.getTimeStep();
+  pushed_off_ = true;
+  put_numbers(nullptr);
+  for (auto& link : links_)
+    link->joint->getRelativeTransform();
   update_inertias();
   for (auto link = links_.rbegin(); link != links_.rend(); ++link)
     update_bias_impulse(**link);
@@ -42,7 +46,7 @@ void TreeDynamics::clear_impulses()
   Vector6& bias = body.*Body::bias_impulse;
   bias = -(body.*Body::constraint_impulse);
   for (const Link* child : link.children) {
-    const Eigen::Isometry3d& T = child->joint->*JointOf::transform;
+    const Eigen::Isometry3d& T = *child->transform;
     const Vector6& impulse = child->body->*Body::bias_impulse;
     if (child->kinematic || child->kind == Kind::none) {
       bias += spatial::to_parent(T, impulse);
@@ -50,7 +54,7 @@ void TreeDynamics::clear_impulses()
     }
     visit(*child, [&](auto& joint) {
       using Space = SpaceOf<decltype(joint)>;
-      const typename Space::JacobianMatrix IJ = child->body->*Body::inertia * jacobian(joint, child->constant);
+      const typename Space::JacobianMatrix IJ = *child->articulated * jacobian(joint, child->constant);
       const typename Space::JacobianMatrix IJP = IJ * joint.*Generic<Space>::inverse_inertia;
       Vector6 beta = impulse;
       beta.noalias() += IJP * joint.*Generic<Space>::total_impulse;
@@ -68,12 +72,11 @@ void TreeDynamics::clear_impulses()
 [[gnu::flatten]] void TreeDynamics::update_velocity_change(Link& link, double dt)
 {
   BodyNode& body = *link.body;
-  const Matrix6& I = body.*Body::inertia;
+  const Matrix6& I = *link.articulated;
   Vector6& change = body.*Body::velocity_change;
   const Vector6 from_parent = link.parent == nullptr
                                   ? Vector6(Vector6::Zero())
-                                  : spatial::to_child(
-                                        link.joint->*JointOf::transform, link.parent->body->*Body::velocity_change);
+                                  : spatial::to_child(*link.transform, link.parent->body->*Body::velocity_change);
   change = from_parent;
   visit(link, [&](auto& joint) {
     using Space = SpaceOf<decltype(joint)>;

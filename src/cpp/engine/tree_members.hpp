@@ -33,7 +33,6 @@ struct BodyMembers : dart::dynamics::BodyNode
   static constexpr auto inertia = &BodyMembers::mArtInertia;
   static constexpr auto inertia_implicit = &BodyMembers::mArtInertiaImplicit;
   static constexpr auto update_inertia = &BodyMembers::updateArtInertia;
-  static constexpr auto gravity_force = &BodyMembers::mFgravity;
   static constexpr auto bias_force = &BodyMembers::mBiasForce;
   static constexpr auto force = &BodyMembers::mF;
   static constexpr auto constraint_impulse = &BodyMembers::mConstraintImpulse;

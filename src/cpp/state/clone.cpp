@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <sstream>
+#include <unordered_map>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "collision/detector.hpp"
 #include "loading/built.hpp"
 #include "loading/loading.hpp"
 #include "loading/root_joint.hpp"
+#include "loading/skeleton_copy.hpp"
 #include "state/manager.hpp"
 #include "state/model_archive.hpp"
 #include "state/snapshot.hpp"
@@ -16,6 +19,7 @@ namespace pydart2 {
 
 namespace {
 
+using dart::dynamics::SkeletonPtr;
 using dart::simulation::WorldPtr;
 
 ModelSource unpacked(const std::string& source)
@@ -101,11 +105,57 @@ void add_again(WorldRecord& world, const SkeletonRef& record)
   world.skeletons.push_back(record);
 }
 
-void add_to(WorldRecord& world, const std::string& source)
+bool alike(const SkeletonPtr& one, const SkeletonPtr& two)
 {
-  const auto model = unpacked(source);
-  world.add(load_skeleton(model), model.kind() == "built" ? std::string() : source);
+  Archive archives[2];
+  SkeletonRecord records[] = {{one}, {two}};
+  for (const int i : {0, 1})
+    visit_skeleton(archives[i], records[i]);
+  return archives[0].texts == archives[1].texts && archives[0].numbers == archives[1].numbers;
 }
+
+/// What makes the skeletons of a plan, and reads each source once.
+class Loader
+{
+public:
+  explicit Loader(const std::vector<std::string>& plan)
+  {
+    for (std::size_t i = texts_of_world; i < plan.size(); i += texts_per_skeleton)
+      ++sources_[plan[i]].wanted;
+  }
+
+  void add_to(WorldRecord& world, const std::string& source)
+  {
+    auto& known = sources_[source];
+    if (known.first == nullptr) {
+      const auto model = unpacked(source);
+      known.first = load_skeleton(model);
+      known.built = model.kind() == "built";
+    }
+    world.add(take(known), known.built ? std::string() : source);
+  }
+
+private:
+  struct Source
+  {
+    int wanted = 0; ///< So many times more.
+    SkeletonPtr first; ///< As it was loaded.
+    bool built = false;
+    bool copied = false; ///< Once, and the copy was like it.
+  };
+
+  static SkeletonPtr take(Source& source)
+  {
+    if (--source.wanted > 0)
+      if (auto copy = copy_of(*source.first); copy != nullptr && (source.copied || alike(source.first, copy))) {
+        source.copied = true;
+        return copy;
+      }
+    return std::exchange(source.first, nullptr);
+  }
+
+  std::unordered_map<std::string, Source> sources_;
+};
 
 void change_root(WorldRecord& world, SkeletonRecord& record, char change)
 {
@@ -124,10 +174,11 @@ void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
   if (plan[1] != solver.getCollisionDetector()->getType())
     use_detector(solver, make_detector(plan[1])); // before there is anything that another one makes trees of
   auto own = has_own_after_others(plan) ? take_out(world) : std::vector<SkeletonRef>();
+  Loader loader(plan);
   std::size_t index = 0;
   for (std::size_t i = texts_of_world; i < plan.size(); i += texts_per_skeleton, ++index) {
     if (!plan[i].empty())
-      add_to(world, plan[i]);
+      loader.add_to(world, plan[i]);
     else if (!own.empty()) {
       add_again(world, own.front());
       own.erase(own.begin());

@@ -59,12 +59,14 @@ void make_anew(WorldRecord& world)
 
 void StepPlan::note_change(SkeletonRecord& skeleton)
 {
+  ++changes;
   if (!stale && std::exchange(skeleton.changed_in, round) != round)
     changed.push_back(&skeleton);
 }
 
 void StepPlan::note_change()
 {
+  ++changes;
   stale = true;
   changed.clear(); // of which some may be gone
 }
@@ -93,9 +95,10 @@ StepPlan& make_plan(WorldRecord& world)
 void plan_through_engine(WorldRecord& world)
 {
   auto& plan = world.plan;
-  const long round = plan.round;
+  const long round = plan.round, changes = plan.changes;
   plan = {};
   plan.round = round;
+  plan.changes = changes + 1;
   plan.others = world.skeletons;
   for (const auto& item : world.skeletons)
     plan.other_skeletons.push_back(item->skeleton);

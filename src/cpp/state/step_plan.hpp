@@ -27,6 +27,7 @@ struct StepPlan
   std::vector<SkeletonRecord*> changed; ///< Skeletons that may have, where it is not stale.
   long round = 0;                       ///< Counts steps, so that a skeleton is in `changed` once.
   bool same = false;                    ///< Nothing has changed since the step before.
+  long changes = 0;                     ///< Counts what was noted.
 
   /// Of a skeleton, or of more than one.
   void note_change(SkeletonRecord& skeleton);

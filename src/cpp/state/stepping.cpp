@@ -52,17 +52,9 @@ TreeDynamics* choose_mover(const WorldRecord& record, SkeletonRecord& item)
   auto* ours = record.dynamics == Dynamics::fast ? item.dynamics() : nullptr;
   if (ours == nullptr || ours->is_for_engine())
     return nullptr;
+  ours->keep_up(record.plan.changes);
   ours->set_fetch_ahead(record.skeletons.size() > many);
   return ours;
-}
-
-void accelerate(SkeletonRecord& item)
-{
-  put_into_inertias(item.armature, *item.skeleton);
-  if (item.mover != nullptr)
-    item.mover->accelerate();
-  else
-    item.skeleton->computeForwardDynamics();
 }
 
 /// Whether a skeleton's steps may be other than the engine's.
@@ -88,7 +80,11 @@ void predict_mobile(const WorldRecord& record, SkeletonRecord& item, double end)
   const double dt = record.world->getTimeStep();
   item.motors.act(skeleton, item.armature, dt);
   item.mover = choose_mover(record, item);
-  accelerate(item);
+  put_into_inertias(item.armature, skeleton);
+  if (item.mover != nullptr)
+    item.mover->accelerate(!has_integrator(record, item));
+  else
+    skeleton.computeForwardDynamics();
   if (has_integrator(record, item))
     prepare_integrator(record, item, dt);
   if (item.mover != nullptr)
@@ -110,6 +106,7 @@ void predict(const WorldRecord& record, SkeletonRecord& item, double end)
   check_range(record, item, end, item.mover);
   if (item.mover == nullptr) // motors look at the impulses
     return clear_impulses(*item.skeleton);
+  item.mover->look_at_forces(item.dofs().commands_at_rest());
   item.mover->clear_impulses();
   item.skeleton->setImpulseApplied(false);
 }
@@ -285,6 +282,18 @@ void clear_external_forces(Skeleton& skeleton)
       body->clearExternalForces();
 }
 
+/// As the engine does after a step.
+void clear_forces(SkeletonRecord& item)
+{
+  auto& skeleton = *item.skeleton;
+  if (item.mover != nullptr && item.mover->forces_at_rest())
+    return item.mover->clear_internal_forces();
+  skeleton.clearInternalForces();
+  clear_external_forces(skeleton);
+  if (!item.dofs().commands_at_rest())
+    skeleton.resetCommands();
+}
+
 void go_back(WorldRecord& record)
 {
   for (std::size_t i = 0; i < record.plan.begun; ++i)
@@ -318,12 +327,8 @@ void advance(WorldRecord& record)
     engine_failed(record, error.what(), where);
   }
   for (const auto& item : record.plan.others)
-    if (item->skeleton->isMobile()) {
-      item->skeleton->clearInternalForces();
-      clear_external_forces(*item->skeleton);
-      if (!item->dofs().commands_at_rest())
-        item->skeleton->resetCommands();
-    }
+    if (item->skeleton->isMobile())
+      clear_forces(*item);
   pass(record);
   tell_of_limits(record);
   fall_asleep(record);
