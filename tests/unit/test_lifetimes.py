@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import gc
 import itertools
+import os
 import subprocess
 import sys
 import textwrap
@@ -57,10 +58,14 @@ def parts(skel):
 """
 
 
-def run(code: str) -> str:
+def run(code: str, **environment: str) -> str:
     script = SETUP.format(tests=str(TESTS)) + textwrap.dedent(code)
     done = subprocess.run(
-        [sys.executable, "-X", "faulthandler", "-c", script], capture_output=True, text=True, timeout=120
+        [sys.executable, "-X", "faulthandler", "-c", script],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env=os.environ | environment,
     )
     assert done.returncode == 0, f"exit code {done.returncode}\n{done.stderr[-3000:]}"
     return done.stdout
@@ -242,6 +247,23 @@ def test_stale_contacts_and_results() -> None:
     assert contact.bodynode1 is body and copy.contacted_bodies == others and len(others) > 1
     refused(lambda: body.T)
     """)
+
+
+@pytest.mark.parametrize("last", ["shape", "node", "marker"])
+def test_a_node_of_a_removed_body_goes_before_its_body(last: str) -> None:
+    code = f"""
+    skel = pydart2.World(0.001).add_box([1.0, 1.0, 1.0])
+    for _ in range(20):
+        arm = skel.add_body("arm", skel.bodynodes[0], "revolute", axis=(1, 0, 0))
+        arm.add_box([1.0, 1.0, 1.0], mass=1.0)
+        marker, node = arm.add_marker("tip", [0.0, 0.0, 1.0]), arm.shapenodes[0]
+        keep = dict(marker=marker, node=node, shape=node.shape)["{last}"]._handle
+        skel.remove_body("arm")
+        del arm, marker, node
+        gc.collect()
+        del keep
+    """
+    run(code, MALLOC_PERTURB_="165")  # what is freed reads as nonsense
 
 
 def test_exit_with_everything_alive() -> None:

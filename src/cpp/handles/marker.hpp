@@ -22,7 +22,7 @@ public:
   Eigen::Vector3d world_position() const;
 
 private:
-  Part<dart::dynamics::Marker, dart::dynamics::TemplateNodePtr<dart::dynamics::Marker, dart::dynamics::BodyNode>> marker_;
+  Part<dart::dynamics::Marker, NodeOwner<dart::dynamics::Marker>> marker_;
 };
 
 } // namespace pydart2

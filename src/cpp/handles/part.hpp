@@ -10,7 +10,20 @@
 
 namespace pydart2 {
 
-/// A part of a skeleton (body, joint, dof ...) held by DART's own smart pointer, so that it cannot dangle.
+/// Owns a node of a body. The engine's own pointer lets go of the body first, and a node that goes as the last one takes
+/// itself out of what the body was.
+template <class Node>
+class NodeOwner
+{
+public:
+  explicit NodeOwner(Node* node) : body_(node->getBodyNodePtr()), node_(node) {}
+
+private:
+  dart::dynamics::BodyNodePtr body_;
+  dart::dynamics::TemplateNodePtr<Node, dart::dynamics::BodyNode> node_;
+};
+
+/// A part of a skeleton (body, joint, dof ...) held by a smart pointer, so that it cannot dangle.
 /// Every access first checks that the world is usable and that the tree is still the one this part was taken from.
 template <class T, class Pointer>
 class Part

@@ -17,9 +17,7 @@ class MeshHandle;
 class ShapeHandle
 {
 public:
-  using Node = Part<
-      dart::dynamics::ShapeNode,
-      dart::dynamics::TemplateNodePtr<dart::dynamics::ShapeNode, dart::dynamics::BodyNode>>;
+  using Node = Part<dart::dynamics::ShapeNode, NodeOwner<dart::dynamics::ShapeNode>>;
 
   explicit ShapeHandle(const Node& node);
 
