@@ -266,6 +266,26 @@ def test_a_node_of_a_removed_body_goes_before_its_body(last: str) -> None:
     run(code, MALLOC_PERTURB_="165")  # what is freed reads as nonsense
 
 
+def test_a_soft_body_moves_to_another_skeleton() -> None:
+    """The engine (6.13) marked the move in memory in front of that of its trees."""
+    code = """
+    vertices = [[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2]]
+    faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+    for first, second in [*itertools.product("mbr", "mb")] * 5:
+        world = pydart2.World(0.001)
+        make = {
+            "m": lambda: world.add_soft_mesh(vertices, faces, 0.2),
+            "b": lambda: world.add_soft_box([0.2, 0.2, 0.2], 0.2, cells=2),
+            "r": lambda: world.add_box([0.2, 0.2, 0.2]),
+        }
+        to, soft = make[first](), make[second]()
+        to.attach(soft.bodynodes[0], to.bodynodes[0], "weld")
+        world.step(2)
+        gc.collect()
+    """
+    run(code, MALLOC_PERTURB_="165")
+
+
 def test_exit_with_everything_alive() -> None:
     run("""
     keep = [new() for _ in range(5)]

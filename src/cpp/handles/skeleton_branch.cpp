@@ -196,6 +196,7 @@ int SkeletonHandle::copy_branch(long of_skeleton, long body, long parent)
       if (const auto found = source.armature.find(original->getParentJoint()->getDof(i)); found != source.armature.end())
         armature[copy->getParentJoint()->getDof(i)] = found->second;
   }
+  built::about_to_move(*copies[&first]);
   change_shapes(world, [&] { copies[&first]->moveTo(to.getPtr(), above); });
   skeleton_.skeleton->armature.insert(armature.begin(), armature.end());
   copy_in_filter(world, copies);

@@ -94,6 +94,7 @@ void SkeletonHandle::remove_body(long index)
   const auto lock = lock_ode();
   auto& solver = *world.world->getConstraintSolver();
   solver.clearLastCollisionResult(); // it points to shapes that go
+  built::about_to_move(*first);
   first->remove();
   use_detector(solver, solver.getCollisionDetector());
   world.tree_changed(*skeleton_.skeleton);

@@ -259,10 +259,18 @@ BodyNode& add_body(
   return body;
 }
 
+void about_to_move(BodyNode& body)
+{
+  body.dirtyTransform();
+}
+
 void hang(Skeleton& skeleton, BodyNode* parent, BodyNode& body, const NewJoint& joint)
 {
-  if (parent != nullptr && parent == body.getParentBodyNode())
+  about_to_move(body);
+  if (parent != nullptr && parent == body.getParentBodyNode()) {
     body.moveTo(skeleton.getPtr(), nullptr); // else it keeps its place among the children, but not among the bodies
+    about_to_move(body);
+  }
   add_joint({skeleton, parent, nullptr, &body}, joint);
 }
 

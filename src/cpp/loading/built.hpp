@@ -36,6 +36,10 @@ dart::dynamics::BodyNode& add_body(
     const NewJoint& joint,
     const Skin* skin = nullptr);
 
+/// To be called before a body gets another parent, or none. The engine (6.13) takes the body out of its tree and then
+/// marks in that tree's memory, which it has no more, that the body has moved; not if the body knows that already.
+void about_to_move(dart::dynamics::BodyNode& body);
+
 /// The body, with all that hangs from it, under another parent, of this or another skeleton; else as add_body().
 void hang(
     dart::dynamics::Skeleton& skeleton,
