@@ -37,13 +37,14 @@ def loop_player() -> Player:
     return play
 
 
-def parts_player(prefix: Path) -> Player:
-    """What is left of a step of an engine if its constraint solver, or all of that but the LCP, cost nothing."""
+def parts_player(prefix: Path | None = None) -> Player:
+    """Of a step of an engine, Debian's if no folder is given: what is left if its constraint solver, or all of that but
+    the LCP, cost nothing; and if all but the search for contacts and the LCP does."""
     program = loop_folder(prefix) / "parts"
 
     def play(question: str, scene: Scene) -> Figures:
-        step, solver, lcp = map(float, output(program, str(scene.steps), *loop_arguments(scene)).split())
-        return {"no solver": step - solver, "only LCP": step - solver + lcp}
+        step, solver, lcp, contacts = map(float, output(program, str(scene.steps), *loop_arguments(scene)).split())
+        return {"no solver": step - solver, "only LCP": step - solver + lcp, "contacts and LCP": contacts + lcp}
 
     return play
 

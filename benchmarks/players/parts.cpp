@@ -1,7 +1,10 @@
 // parts STEPS SCENE... (as for loop_make): prints the seconds of CPU time of a step with DART's own constraint solver,
-// those of them in the solver (from the constraint matrix to the impulses), and those of them in the LCP, which is ours.
+// those of them in the solver (from the constraint matrix to the impulses), those in the LCP, which is ours, and those in
+// finding contacts, by FCL or the engine's own detector.
 
 #include <chrono>
+#include <dart/collision/dart/DARTCollisionDetector.hpp>
+#include <dart/collision/fcl/FCLCollisionDetector.hpp>
 #include <dart/constraint/BoxedLcpConstraintSolver.hpp>
 #include <dart/constraint/DantzigBoxedLcpSolver.hpp>
 #include <dart/external/odelcpsolver/common.h>
@@ -58,6 +61,44 @@ protected:
   }
 };
 
+template <class Detector>
+class Timed final : public Detector
+{
+public:
+  explicit Timed(double& seconds) : seconds_(seconds) {}
+
+  using Detector::collide;
+
+  bool collide(
+      dart::collision::CollisionGroup* group,
+      const dart::collision::CollisionOption& option,
+      dart::collision::CollisionResult* result) override
+  {
+    const auto begin = Clock::now();
+    const bool any = Detector::collide(group, option, result);
+    seconds_ += since(begin);
+    return any;
+  }
+
+private:
+  double& seconds_;
+};
+
+/// The same detector, which adds up the seconds of its searches; the given one if it is of another kind.
+static dart::collision::CollisionDetectorPtr timed(const dart::collision::CollisionDetectorPtr& detector, double& seconds)
+{
+  using namespace dart::collision;
+  if (const auto fcl = std::dynamic_pointer_cast<FCLCollisionDetector>(detector)) {
+    const auto made = std::make_shared<Timed<FCLCollisionDetector>>(seconds);
+    made->setPrimitiveShapeType(fcl->getPrimitiveShapeType());
+    made->setContactPointComputationMethod(fcl->getContactPointComputationMethod());
+    return made;
+  }
+  if (std::dynamic_pointer_cast<DARTCollisionDetector>(detector))
+    return std::make_shared<Timed<DARTCollisionDetector>>(seconds);
+  return detector;
+}
+
 int main(int argc, char** argv)
 {
   if (argc < 3)
@@ -69,9 +110,10 @@ int main(int argc, char** argv)
   const auto lcp = std::make_shared<TimedLcp>();
   const auto detector = loop->world->getConstraintSolver()->getCollisionDetector();
   loop->world->setConstraintSolver(std::move(owned));
-  solver.setCollisionDetector(detector);
+  double contacts = 0.0;
+  solver.setCollisionDetector(timed(detector, contacts));
   solver.setBoxedLcpSolver(lcp);
   const auto begin = Clock::now();
-  const double seconds = loop_steps(loop.get(), steps) / steps, on_the_wall = since(begin);
-  std::cout << seconds << " " << seconds * solver.seconds / on_the_wall << " " << seconds * lcp->seconds / on_the_wall << "\n";
+  const double seconds = loop_steps(loop.get(), steps) / steps, share = seconds / since(begin);
+  std::cout << seconds << " " << share * solver.seconds << " " << share * lcp->seconds << " " << share * contacts << "\n";
 }
