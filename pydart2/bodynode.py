@@ -73,7 +73,8 @@ class BodyNode(Motion, BodyBuilding):
         self.child_bodynodes = [skel.bodynodes[handle.child_bodynode(i)] for i in range(self.num_child_bodynodes())]
         self.parent_joint = skel.joints[handle.parent_joint()]
         self.child_joints = [skel.joints[handle.child_joint(i)] for i in range(self.num_child_joints())]
-        self.dependent_dofs = [skel.dofs[handle.dependent_dof(i)] for i in range(self.num_dependent_dofs())]
+        above = [] if self.parent_bodynode is None else self.parent_bodynode.dependent_dofs  # parents come first
+        self.dependent_dofs = [*above, *self.parent_joint.dofs]
         before = {node.name: node for node in self.shapenodes}
         nodes = [ShapeNode(self, i) for i in range(self.num_shapenodes())]
         self.shapenodes = [kept(before, node) for node in nodes]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -54,7 +55,6 @@ class ShapeNode(BodyPart):
     id : int
         Index in the body.
     name : str
-    shape : Shape or None
     """
 
     _LIST = "shapenodes"
@@ -65,15 +65,19 @@ class ShapeNode(BodyPart):
         self._id = _id
         self._handle: ShapeNodeHandle = _bodynode._handle.shapenode(_id)
         self.name = self._handle.name()
-        self.shape: Shape | None = create_shape(self)
+
+    @cached_property
+    def shape(self) -> Shape | None:
+        """Its shape, or None. Made when it is first asked for: most are only ever drawn and collide."""
+        return create_shape(self)
 
     def _take(self, other: Self) -> None:
-        """Be the node that a new object is for, and its shape that of the other's."""
+        """Be the node that a new object is for; the shape that was asked for stays, of the new one's."""
         super()._take(other)
-        if self.shape is not None and other.shape is not None:
-            self.shape._handle = other.shape._handle
-        else:
-            self.shape = other.shape
+        shape = vars(self).pop("shape", None)
+        if shape is not None and self._handle.has_shape():
+            shape._handle = self._handle.shape()
+            vars(self)["shape"] = shape
 
     def has_visual_aspect(self) -> bool:
         """Whether it is drawn."""

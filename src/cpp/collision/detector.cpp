@@ -102,6 +102,12 @@ void renew_fcl(ConstraintSolver& solver, bool shapes_changed)
 
 } // namespace
 
+void place_at_once(ConstraintSolver& solver, bool at_once)
+{
+  if (auto* fcl = dynamic_cast<FclDetector*>(solver.getCollisionDetector().get()))
+    fcl->placed_at_once = at_once;
+}
+
 void renew_detector(ConstraintSolver& solver, bool shapes_changed)
 {
   const auto detector = solver.getCollisionDetector(); // no hold on the group: ODE's goes under the lock

@@ -37,6 +37,9 @@ void replace_detector(dart::constraint::ConstraintSolver& solver);
 /// Of a solver with one of make_detector()'s.
 ShapeChoice& shape_choice(dart::constraint::ConstraintSolver& solver);
 
+/// Lets FCL make trees quickly of shapes that come, which are not the engine's: till renew_detector().
+void place_at_once(dart::constraint::ConstraintSolver& solver, bool at_once);
+
 /// The same detector without memory of the steps before; if shapes came or went, with those that are there in their order.
 void renew_detector(dart::constraint::ConstraintSolver& solver, bool shapes_changed);
 

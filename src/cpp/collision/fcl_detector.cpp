@@ -232,6 +232,8 @@ public:
     placed_ = false;
   }
 
+  void place() { updateEngineData(); }
+
 protected:
   /// As the engine's, with less of what skins take. The engine's frame of the shape is not asked where it is, so that it need
   /// not keep that in its memory.
@@ -343,7 +345,10 @@ bool FclDetector::collide(CollisionGroup* group, const CollisionOption& option, 
 std::unique_ptr<CollisionObject> FclDetector::createCollisionObject(const ShapeFrame* frame)
 {
   forget();
-  return std::make_unique<Object>(this, frame, geometry(frame->getShape()));
+  auto object = std::make_unique<Object>(this, frame, geometry(frame->getShape()));
+  if (placed_at_once)
+    object->place();
+  return object;
 }
 
 void FclDetector::refreshCollisionObject(CollisionObject* object)

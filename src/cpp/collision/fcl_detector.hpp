@@ -30,6 +30,10 @@ public:
   /// copy and what it was copied from need the same trees from there on.
   bool soft_at_rest = false;
 
+  /// Whether new objects are put where their shapes are and not, as by the engine, at the origin until the next step: of
+  /// many there FCL makes a tree that is a list. For trees that renew_detector() makes anew.
+  bool placed_at_once = false;
+
 protected:
   std::unique_ptr<dart::collision::CollisionObject> createCollisionObject(
       const dart::dynamics::ShapeFrame* frame) override;

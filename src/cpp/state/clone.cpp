@@ -173,6 +173,7 @@ void follow_plan(WorldRecord& world, const std::vector<std::string>& plan)
   auto& solver = *world.world->getConstraintSolver();
   if (plan[1] != solver.getCollisionDetector()->getType())
     use_detector(solver, make_detector(plan[1])); // before there is anything that another one makes trees of
+  place_at_once(solver, true);
   auto own = has_own_after_others(plan) ? take_out(world) : std::vector<SkeletonRef>();
   Loader loader(plan);
   std::size_t index = 0;
@@ -232,7 +233,8 @@ WorldRef build(const Blueprint& blueprint)
   Archive model(blueprint.texts, blueprint.numbers);
   visit_model(model, *world);
   model.finish();
-  restore_state(*world, blueprint.state);
+  place_at_once(*world->world->getConstraintSolver(), false);
+  restore_state(*world, blueprint.state); // makes the detector's tree anew
   const auto made = blueprint_of(*world);
   auto state = blueprint.state;
   state.resize(std::max(state.size(), made.state.size()), 0.0); // one from before there were motors has none
