@@ -68,7 +68,7 @@ class ShapeNode(BodyPart):
 
     @cached_property
     def shape(self) -> Shape | None:
-        """Its shape, or None. Made when it is first asked for: most are only ever drawn and collide."""
+        """Its shape, or None; made when it is first asked for."""
         return create_shape(self)
 
     def _take(self, other: Self) -> None:
