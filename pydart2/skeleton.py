@@ -121,12 +121,13 @@ class Skeleton(Dynamics, TargetControl, ShortForms, SavedSkeleton, Assignable):
 
     def __reduce__(self) -> tuple[object, ...]:
         kept = {name: value for name, value in self.__dict__.items() if name not in _BUILT}
-        return part_of, (self.world, "skeletons", self.id), kept
+        return part_of, (self.world, "skeletons", self.id), {**kept, "_tau": np.array(self.forces())}
 
-    def __setstate__(self, kept: dict[str, object]) -> None:
-        if kept.get("_tau") is None:  # as release candidates saved it where none was set
-            kept.pop("_tau", None)
+    def __setstate__(self, kept: dict[str, Any]) -> None:
+        tau = kept.pop("_tau", None)  # None as release candidates saved it where none was set
         super().__setstate__(kept)
+        if tau is not None:
+            self._handle.set_last_forces(tau)
         self._handle.set_controlled(self._controller is not None)
 
     def set_position_limits_enforced(self, enforced: bool = True) -> None:

@@ -270,7 +270,6 @@ _FRESH = {
     (SkeletonHandle, "com"),
     (SkeletonHandle, "coriolis_and_gravity_forces"),
     (SkeletonHandle, "constraint_forces"),
-    (SkeletonHandle, "set_forces"),
     (BodyNodeHandle, "transform"),
 }
 

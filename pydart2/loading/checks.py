@@ -47,7 +47,8 @@ def relevant(root: Element, rules: Rules) -> Iterator[Element]:
     while waiting:
         element = waiting.pop()
         yield element
-        waiting += [child for child in reversed(element.children) if child.tag not in rules.skipped]
+        if element.children:
+            waiting += [child for child in reversed(element.children) if child.tag not in rules.skipped]
 
 
 def _names(element: Element) -> tuple[str, ...]:

@@ -31,10 +31,11 @@ _EXTENTS = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "len
 def mend_fields(document: Document, elements: Iterable[Element], rules: Rules, say: Say) -> None:
     """Settle what the checks would refuse: a fourth number of a scale, SDF's hinges without limits and with gears."""
     for element in elements:
-        scale = (element.get("@scale") or "").split()
-        if element.tag == "mesh" and document.root.tag == "robot" and len(scale) > 3:
-            say(document, element, f"{element}: its scale has {len(scale)} numbers; the first three are taken")
-            document.set(element, "@scale", " ".join(scale[:3]))
+        if element.tag == "mesh" and document.root.tag == "robot":
+            scale = (element.get("@scale") or "").split()
+            if len(scale) > 3:
+                say(document, element, f"{element}: its scale has {len(scale)} numbers; the first three are taken")
+                document.set(element, "@scale", " ".join(scale[:3]))
         elif element.tag == "joint" and rules.kind == "sdf" and element.get("@type") == "continuous":
             document.set(element, "@type", "revolute")
             if element.find("axis", "limit") is not None:

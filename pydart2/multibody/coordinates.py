@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.alias import Alias, Settable, also
@@ -25,7 +26,7 @@ class Coordinates(Structure):
 
         Or some of them by name: ``set_positions({"j_knee": 0.4}, j_hip=0.1)``.
         """
-        if isinstance(_q, np.ndarray) and not by_name:  # the usual case, told without a call
+        if isinstance(_q, ndarray) and not by_name:  # the usual case, told without a call
             self._handle.set_positions(_q)
         else:
             self._handle.set_positions(self._vector(_q, by_name, "q"))
@@ -40,7 +41,7 @@ class Coordinates(Structure):
 
     def set_velocities(self, _qdot: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized velocities, shape (ndofs,), rad/s or m/s, or some of them by name."""
-        if isinstance(_qdot, np.ndarray) and not by_name:
+        if isinstance(_qdot, ndarray) and not by_name:
             self._handle.set_velocities(_qdot)
         else:
             self._handle.set_velocities(self._vector(_qdot, by_name, "dq"))
@@ -117,7 +118,7 @@ class Coordinates(Structure):
 
         They stay after the step that used them, in which the engine clears its own.
         """
-        return self._tau.copy()
+        return self._handle.last_forces(self._pattern)
 
     def set_forces(self, _tau: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized forces of the next step, shape (ndofs,), N m or N; or some by name, the others zero."""
@@ -130,13 +131,9 @@ class Coordinates(Structure):
 
     @tau.setter
     def tau(self, tau: ArrayLike) -> None:
-        self._handle.set_forces(tau, self._tau)  # the step will clear the engine's
+        self._handle.set_forces(tau)
 
     set_tau = also(set_forces)
-
-    def _read_tau(self) -> None:
-        """What the engine has is what was last set: of another tree, or a state that is put back."""
-        self._tau = self._handle.forces(self._pattern)
 
     def commands(self, out: SkelVector | None = None) -> SkelVector:
         """Commands to the actuators, shape (ndofs,), in the unit of each joint's actuator type. A copy."""
@@ -148,7 +145,7 @@ class Coordinates(Structure):
         A command is a force for FORCE joints (N m or N), a velocity for SERVO and VELOCITY (rad/s or m/s), an
         acceleration for ACCELERATION (rad/s² or m/s²).
         """
-        if isinstance(_commands, np.ndarray) and not by_name:
+        if isinstance(_commands, ndarray) and not by_name:
             self._handle.set_commands(_commands)
         else:
             self._handle.set_commands(self._vector(_commands, by_name, "comms"))

@@ -35,7 +35,6 @@ class Structure:
     bodynodes: list[BodyNode]
     markers: list[Marker]
     _handle: SkeletonHandle
-    _tau: SkelVector  # the forces last set
 
     if TYPE_CHECKING:
 
@@ -56,7 +55,6 @@ class Structure:
         self.bodynodes = [kept(bodies, self._make_body(i)) for i in range(handle.num_bodynodes())]
         self.markers = [Marker(skel, i) for i in range(handle.num_markers())]
         self._refresh_names()
-        skel._read_tau()
         for parts in (self.joints, self.bodynodes, self.markers):
             for part in parts:
                 part.build()
@@ -83,8 +81,6 @@ class Structure:
         self.names = Names([dof.name for dof in self.dofs], skel)
         self._pattern = SkelVector(np.zeros(len(self.dofs)), skel)
         self._pattern.flags.writeable = False  # what says to the C++ layer: a new vector like this one
-        if hasattr(self, "_tau"):
-            self._tau._names = self.names
 
     def num_dofs(self) -> int:
         """How many dofs there are."""

@@ -74,8 +74,6 @@ class Copies(WorldPart):
                 "restore(snapshot, strict=False) takes it nevertheless"
             )
         self._handle.restore(snapshot.values)
-        for skel in self.skeletons:
-            skel._read_tau()
         self.collision_result = CollisionResult.from_rows(cast("World", self), snapshot.contacts)
 
     def clone(self, exact: bool = True) -> World:

@@ -18,6 +18,7 @@ READ: dict[str, Callable[[Skeleton], ArrayLike]] = {
     "Minv": lambda skel: skel.Minv,
     "aug": lambda skel: skel.aug_mass_matrix(),
     "c": lambda skel: skel.c,
+    "c of another object": lambda skel: Skeleton(skel.world, _id=skel.id).c,
     "coriolis": lambda skel: skel.coriolis_forces(),
     "gravity": lambda skel: skel.gravity_forces(),
     "C": lambda skel: skel.C,
@@ -51,6 +52,7 @@ CHANGES: dict[str, Callable[[Skeleton, int, Array], object]] = {
     "gravity": lambda skel, i, x: skel.world.set_gravity(10.0 * x[:3]),
     "gravity mode": lambda skel, i, x: skel.bodynodes[i % skel.num_bodynodes()].set_gravity_mode(x[0] > 0.0),
     "force": lambda skel, i, x: skel.bodynodes[i % skel.num_bodynodes()].add_ext_force(x[:3]),
+    "step": lambda skel, i, x: skel.world.step(),
 }
 
 

@@ -130,7 +130,8 @@ def every_kind(tmp_path: Path) -> Iterator[pydart2.World]:
 # The recording is no part of a clone; the state of a skeleton is, and is tested above. The engine's dynamics exclude
 # integrators; solver/test_dynamics.py copies them. Bits are read by body: test_collision_groups.py copies them.
 NOT_TRIED = {"set_recording", "set_frame", "set_recording_limit", "set_dynamics", "set_collision_bits"} | {
-    f"set_{name}" for name in ("states", "positions", "velocities", "accelerations", "forces", "commands")
+    f"set_{name}"
+    for name in ("states", "positions", "velocities", "accelerations", "forces", "last_forces", "commands")
 }
 
 

@@ -1,8 +1,11 @@
 #include "dynamics/bias_forces.hpp"
 
+#include <algorithm>
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <dart/dynamics/Joint.hpp>
+
+#include <limits>
 
 #include "engine/protected_members.hpp"
 
@@ -14,14 +17,37 @@ const Eigen::VectorXd& BiasForces::update(const LinkTree& tree)
   if (skeleton.getNumSoftBodyNodes() > 0)
     return skeleton.getCoriolisAndGravityForces();
   auto& cache = EngineCache::of(skeleton);
-  if (cache.mDirty.mCoriolisAndGravityForces) {
-    go_outwards(tree);
-    go_inwards(tree.links, cache.mCg);
-    for (const Link& link : tree.links)
-      link.body->getSpatialVelocity(); // a body whose velocity nobody has asked for does not tell of a new one
+  const bool moves_otherwise = note_velocities(tree); // a body whose velocity nobody has asked for does not tell of a new one
+  if (moves_otherwise || cache.mDirty.mCoriolisAndGravityForces) {
+    cache.mCg = compute(tree);
     cache.mDirty.mCoriolisAndGravityForces = false;
   }
   return cache.mCg;
+}
+
+const Eigen::VectorXd& BiasForces::compute(const LinkTree& tree)
+{
+  auto& skeleton = tree.skeleton;
+  if (skeleton.getNumSoftBodyNodes() > 0)
+    return skeleton.getCoriolisAndGravityForces();
+  forces_.resize(static_cast<long>(skeleton.getNumDofs()));
+  go_outwards(tree);
+  go_inwards(tree.links, forces_);
+  return forces_;
+}
+
+/// Whether they differ from those noted before.
+bool BiasForces::note_velocities(const LinkTree& tree)
+{
+  if (velocities_.empty())
+    for (const Link& link : tree.links)
+      for (int k = 0; k < link.num_dofs; ++k)
+        velocities_.push_back({link.numbers.velocities + k, std::numeric_limits<double>::quiet_NaN()});
+  if (std::all_of(velocities_.begin(), velocities_.end(), [](const auto& velocity) { return velocity.noted == *velocity.now; }))
+    return false;
+  for (auto& [now, noted] : velocities_)
+    noted = *now;
+  return true;
 }
 
 void BiasForces::go_outwards(const LinkTree& tree)

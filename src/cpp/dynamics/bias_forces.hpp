@@ -19,7 +19,10 @@ namespace pydart2 {
 class BiasForces
 {
 public:
-  /// The engine's vector, up to date. That of a skeleton with soft bodies is computed by DART.
+  /// Of the present state. That of a skeleton with soft bodies is computed by DART.
+  const Eigen::VectorXd& compute(const LinkTree& tree);
+
+  /// The same as the engine's vector, computed where it is out of date: by one object for each skeleton.
   const Eigen::VectorXd& update(const LinkTree& tree);
 
 private:
@@ -29,10 +32,18 @@ private:
     Eigen::Vector3d gravity;
   };
 
+  bool note_velocities(const LinkTree& tree);
   void go_outwards(const LinkTree& tree);
   void go_inwards(const std::vector<Link>& links, Eigen::VectorXd& c);
 
   std::vector<Motion> motions_;
+  struct Velocity
+  {
+    const double* now;
+    double noted;
+  };
+  std::vector<Velocity> velocities_;
+  Eigen::VectorXd forces_;
 };
 
 /// The part of c that is gravity's. DART's own sum for skeletons with soft bodies has numbers that nobody ever set.

@@ -169,7 +169,7 @@ VectorXd SkeletonIntegrator::forces_at(const VectorXd& r, const VectorXd& dq)
 {
   move(r);
   skeleton_.setVelocities(dq);
-  VectorXd f = actuator_forces() + skeleton_.getExternalForces() - bias_forces_.update(tree_);
+  VectorXd f = actuator_forces() + skeleton_.getExternalForces() - bias_forces_.compute(tree_);
   f += each_dof(skeleton_, [](const Dof& dof) {
     return -dof.getDampingCoefficient() * dof.getVelocity()
            - dof.getSpringStiffness() * (dof.getPosition() - dof.getRestPosition());

@@ -19,7 +19,7 @@ Eigen::VectorXd StablePd::compensation(const Targets& targets)
 {
   if (targets.compensation == Targets::Compensation::none)
     return Eigen::VectorXd::Zero(targets.q.size());
-  const Eigen::VectorXd c = targets.compensation == Targets::Compensation::bias ? bias_forces_.update(tree_)
+  const Eigen::VectorXd c = targets.compensation == Targets::Compensation::bias ? bias_forces_.compute(tree_)
                                                                                : gravity_forces(tree_.skeleton);
   return (targets.kp.array() != 0 || targets.kd.array() != 0).select(c, 0.0);
 }
@@ -29,7 +29,7 @@ Eigen::VectorXd StablePd::others(double h)
 {
   const auto& skeleton = tree_.skeleton;
   const Eigen::VectorXd dq = skeleton.getVelocities();
-  return skeleton.getForces() + skeleton.getExternalForces() + constraint_forces(skeleton) - bias_forces_.update(tree_)
+  return skeleton.getForces() + skeleton.getExternalForces() + constraint_forces(skeleton) - bias_forces_.compute(tree_)
          - damping_.cwiseProduct(dq) - stiffness_.cwiseProduct(skeleton.getPositions() + h * dq - rest_);
 }
 

@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "base/arrays.hpp"
-#include "dynamics/bias_forces.hpp"
-#include "dynamics/mass_matrix.hpp"
 #include "handles/bodynode.hpp"
 #include "handles/dof.hpp"
 #include "handles/dynamics.hpp"
@@ -62,12 +60,14 @@ public:
   void velocities(Output& like) const;
   void accelerations(Output& like) const;
   void forces(Output& like) const;
+  /// Those that a step has cleared too.
+  void last_forces(Output& like) const;
+  void set_last_forces(const VectorIn& forces);
   void commands(Output& like) const;
   void set_positions(const VectorIn& positions);
   void set_velocities(const VectorIn& velocities);
   void set_accelerations(const VectorIn& accelerations);
-  /// What they are then comes out, until a step clears them.
-  void set_forces(const VectorIn& forces, Output& into);
+  void set_forces(const VectorIn& forces);
   void set_commands(const VectorIn& commands);
 
   /// [q, dq].
@@ -84,9 +84,9 @@ public:
   void force_lower_limits(Output& out) const;
   void force_upper_limits(Output& out) const;
 
-  void mass_matrix(Output& into);
+  void mass_matrix(Output& into) const;
   void inv_mass_matrix(Output& into) const;
-  void coriolis_and_gravity_forces(Output& into);
+  void coriolis_and_gravity_forces(Output& into) const;
   void coriolis_forces(Output& out) const;
   void gravity_forces(Output& out) const;
   void external_forces(Output& out) const;
@@ -180,17 +180,7 @@ private:
   /// Checks the vector and copies it to where DART takes it from without an allocation.
   const Eigen::VectorXd& per_dof(const VectorIn& values, const char* what);
 
-  /// Made when they are first asked for.
-  struct Passes
-  {
-    LinkTree tree;
-    MassMatrix mass_matrix;
-    BiasForces bias_forces;
-  };
-  Passes& passes();
-
   Part<dart::dynamics::Skeleton, dart::dynamics::Skeleton*> skeleton_; // SkeletonRecord owns it
-  std::shared_ptr<Passes> passes_;
   Eigen::VectorXd scratch_;
   std::array<Eigen::VectorXd, 7> joint_scratch_; // by the number of dofs
 };

@@ -29,10 +29,11 @@ void SkeletonHandle::each_dof(Output& out, Read read) const
 const Eigen::VectorXd& SkeletonHandle::per_dof(const VectorIn& values, const char* what)
 {
   const auto& dofs = std::as_const(*this).dofs();
-  std::string named = what;
-  if (values.size + 6 == static_cast<long>(dofs.size()) && dofs.front()->getJoint()->getNumDofs() == 6)
-    named += " (the first 6 are of the base, which floats; base=\"fixed\" welds it)";
-  check::size(values.size, dofs.size(), named.c_str());
+  if (values.size + 6 == static_cast<long>(dofs.size()) && dofs.front()->getJoint()->getNumDofs() == 6) {
+    const auto of_a_base = std::string(what) + " (the first 6 are of the base, which floats; base=\"fixed\" welds it)";
+    check::size(values.size, dofs.size(), of_a_base.c_str());
+  }
+  check::size(values.size, dofs.size(), what);
   check::finite(values, what);
   scratch_ = values.eigen();
   return scratch_;
@@ -61,6 +62,18 @@ void SkeletonHandle::accelerations(Output& like) const
 void SkeletonHandle::forces(Output& like) const
 {
   gather(state().forces, like);
+}
+
+void SkeletonHandle::last_forces(Output& like) const
+{
+  skeleton_.get();
+  const auto& forces = skeleton_.skeleton->last_forces();
+  vector(like, forces.size()) = forces;
+}
+
+void SkeletonHandle::set_last_forces(const VectorIn& forces)
+{
+  skeleton_.skeleton->last_forces() = per_dof(forces, "forces");
 }
 
 void SkeletonHandle::commands(Output& like) const
@@ -98,15 +111,15 @@ void SkeletonHandle::set_accelerations(const VectorIn& accelerations)
   skeleton().setAccelerations(per_dof(accelerations, "accelerations"));
 }
 
-void SkeletonHandle::set_forces(const VectorIn& forces, Output& into)
+void SkeletonHandle::set_forces(const VectorIn& forces)
 {
-  if (!skeleton_.skeleton->not_numbers) { // else nothing moves, and what a controller makes of NaN is NaN
-    const auto& values = per_dof(forces, "forces");
-    const auto& dofs = skeleton_.get_to_push(!values.isZero(0.0))->getDofs();
-    for (std::size_t i = 0; i < dofs.size(); ++i)
-      dofs[i]->setForce(values[static_cast<long>(i)]);
-  }
-  this->forces(into);
+  if (skeleton_.skeleton->not_numbers) // nothing moves, and what a controller makes of NaN is NaN
+    return;
+  const auto& values = per_dof(forces, "forces");
+  skeleton_.skeleton->last_forces() = values;
+  const auto& dofs = skeleton_.get_to_push(!values.isZero(0.0))->getDofs();
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    dofs[i]->setForce(values[static_cast<long>(i)]);
 }
 
 void SkeletonHandle::set_commands(const VectorIn& commands)

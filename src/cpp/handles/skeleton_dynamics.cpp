@@ -18,17 +18,10 @@ void copy(const Eigen::VectorXd& values, Output& out)
 
 } // namespace
 
-SkeletonHandle::Passes& SkeletonHandle::passes()
+void SkeletonHandle::mass_matrix(Output& into) const
 {
-  auto& skel = std::as_const(*this).skeleton();
-  if (!passes_)
-    passes_.reset(new Passes{LinkTree(skel), {}, {}});
-  return *passes_;
-}
-
-void SkeletonHandle::mass_matrix(Output& into)
-{
-  auto& [tree, mass_matrix, bias_forces] = passes();
+  skeleton_.get();
+  auto& [tree, mass_matrix, bias_forces] = skeleton_.skeleton->passes();
   const Eigen::MatrixXd& M = mass_matrix.update(tree);
   // M is symmetric, so its columns are its rows.
   double* to = into.matrix(M.rows(), M.cols());
@@ -51,9 +44,10 @@ void SkeletonHandle::inv_mass_matrix(Output& into) const
   matrix(into, M.rows(), M.cols()) = M.llt().solve(Eigen::MatrixXd::Identity(M.rows(), M.cols()));
 }
 
-void SkeletonHandle::coriolis_and_gravity_forces(Output& into)
+void SkeletonHandle::coriolis_and_gravity_forces(Output& into) const
 {
-  auto& [tree, mass_matrix, bias_forces] = passes();
+  skeleton_.get();
+  auto& [tree, mass_matrix, bias_forces] = skeleton_.skeleton->passes();
   copy(bias_forces.update(tree), into);
 }
 

@@ -32,6 +32,8 @@ void WorldHandle::snapshot(Output& out)
 void WorldHandle::restore(const VectorIn& snapshot)
 {
   restore_state(world(), {snapshot.data, snapshot.data + snapshot.size});
+  for (const auto& skeleton : record_->skeletons)
+    skeleton->forget_last_forces();
 }
 
 std::vector<std::string> WorldHandle::model_texts() const

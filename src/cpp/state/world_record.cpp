@@ -26,6 +26,13 @@ const DofState& SkeletonRecord::dofs()
   return *found_dofs;
 }
 
+Eigen::VectorXd& SkeletonRecord::last_forces()
+{
+  if (std::exchange(last_forces_structure, structure) != structure)
+    remembered_forces = skeleton->getForces();
+  return remembered_forces;
+}
+
 void WorldRecord::become_not_numbers(SkeletonRecord& skeleton)
 {
   skeleton.not_numbers.emplace(*skeleton.skeleton);
@@ -54,6 +61,13 @@ TreeDynamics* SkeletonRecord::dynamics()
     dynamics_structure = structure;
   }
   return made_dynamics.get();
+}
+
+SkeletonRecord::Passes& SkeletonRecord::passes()
+{
+  if (std::exchange(passes_structure, structure) != structure)
+    made_passes.emplace(Passes{LinkTree(*skeleton), {}, {}});
+  return *made_passes;
 }
 
 SkeletonIntegrator& SkeletonRecord::integrator()

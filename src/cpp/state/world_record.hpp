@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "dynamics/armature.hpp"
+#include "dynamics/bias_forces.hpp"
 #include "dynamics/dynamics_choice.hpp"
 #include "dynamics/integrator.hpp"
+#include "dynamics/mass_matrix.hpp"
 #include "dynamics/stable_pd.hpp"
 #include "engine/collision_filter.hpp"
 #include "state/constraint_record.hpp"
@@ -69,6 +71,15 @@ struct SkeletonRecord
   std::optional<DofState> found_dofs;
   int found_structure = 0;
 
+  /// The forces last set, which stay when a step clears the engine's. Those of a tree that has changed are the engine's.
+  Eigen::VectorXd& last_forces();
+
+  /// From now on they are the engine's.
+  void forget_last_forces() { last_forces_structure = -1; }
+
+  Eigen::VectorXd remembered_forces = {};
+  int last_forces_structure = -1;
+
   /// After a blow-up that is not raised: what is read instead, until a state is set. The engine has the last sane one.
   std::optional<DofState> not_numbers;
 
@@ -78,6 +89,18 @@ struct SkeletonRecord
   std::shared_ptr<TreeDynamics> made_dynamics = nullptr;
   int dynamics_structure = -1;
   TreeDynamics* mover = nullptr; ///< What moves it in the present step, null for the engine.
+
+  /// Over its tree, for who asks. Made again when it has changed.
+  struct Passes
+  {
+    LinkTree tree;
+    MassMatrix mass_matrix;
+    BiasForces bias_forces;
+  };
+  Passes& passes();
+
+  std::optional<Passes> made_passes;
+  int passes_structure = -1;
 
   /// Made again when the tree has changed.
   SkeletonIntegrator& integrator();
