@@ -150,17 +150,25 @@ def test_glut_closes_by_itself_by_ctrl_c_and_by_exit(deed: str, status: int, dis
     assert ("ArithmeticError: mine" in result.stderr) is (status == 1)
 
 
-def test_ctrl_c_closes_the_window() -> None:
-    code = """
+@pytest.mark.parametrize(
+    "when",
+    [
+        "threading.Timer(0.7, interrupt).start()",
+        "window.show = lambda: (interrupt(), type(window).show(window))",  # while it opens
+    ],
+)
+def test_ctrl_c_closes_the_window(when: str) -> None:
+    code = f"""
         import os, signal, threading
         import pydart2 as pydart
+        interrupt = lambda: os.kill(os.getpid(), signal.SIGINT)
         window = pydart.gui.viewer.PydartWindow(pydart.World(0.001))
         before = signal.getsignal(signal.SIGINT)
-        threading.Timer(0.7, os.kill, (os.getpid(), signal.SIGINT)).start()
+        {when}
         window.run()
         print("closed", signal.getsignal(signal.SIGINT) is before)
     """
-    result = run_code(code, QT_QPA_PLATFORM="offscreen")
+    result = run_code(code, QT_QPA_PLATFORM="offscreen", seconds=45.0)
     assert (result.returncode, result.stdout.splitlines()[-1]) == (0, "closed True"), result.stderr
 
 

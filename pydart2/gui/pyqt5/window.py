@@ -379,7 +379,7 @@ class PyQt5Window(Scripted):
         then ends with status 1 if user code has raised.
         """
         seconds = seconds_to_show()
-        with exceptions_to(self.runtime.fail), interrupt_calls(self.close):
+        with exceptions_to(self.runtime.fail), interrupt_calls(self._close_soon):
             self.show()
             if seconds is not None:
                 self.playAction.setChecked(True)
@@ -387,6 +387,10 @@ class PyQt5Window(Scripted):
             self.app.exec_()
         if seconds is not None and self.runtime.errors:
             sys.exit(1)
+
+    def _close_soon(self) -> None:
+        """Close when Qt has its turn: nothing would stop a window that is closed before it is shown."""
+        QTimer.singleShot(0, self.close)
 
     def run_application(self) -> None:
         """Like run()."""
