@@ -191,3 +191,16 @@ def test_what_is_set_in_a_lost_copy_is_said(robot: Any) -> None:
         kept = {"q": robot.q}
         kept["q"][1] = 0.3
     np.testing.assert_allclose(robot.q[[0, 3, 1]], [0.2, 0.3, 0.1])
+
+
+class Slotted:
+    """Has a layout of its own."""
+
+    __slots__ = ("place",)
+
+
+@pytest.mark.parametrize("other", [dict, Exception, Slotted])
+def test_worlds_and_skeletons_can_be_of_another_kind_too(other: type) -> None:
+    """As with Qt's objects, for their signals: Python combines one layout only, so ours has none."""
+    for ours in (pydart2.World, pydart2.Skeleton):
+        assert issubclass(type("Both", (ours, other), {}), other)

@@ -1,22 +1,9 @@
 #include "python/looked_at.hpp"
 
-#include <structmember.h>
-
-#include <cstddef>
-
 namespace pydart2::looked_at {
 
 namespace {
 
-struct LookedAt
-{
-  PyObject_HEAD
-  PyObject* handle;
-  PyObject* pattern;
-};
-
-PyObject* handle_name = nullptr;
-PyObject* pattern_name = nullptr;
 PyObject* called_names = nullptr; // of attributes that are callable
 PyObject* unlooked_name = nullptr;
 PyObject* ask_name = nullptr;
@@ -54,11 +41,6 @@ int set(PyObject* self, PyObject* name, PyObject* value)
 /// A property that raises an AttributeError of its own is heard; Python is asked only of names that nothing has.
 PyObject* get(PyObject* self, PyObject* name)
 {
-  const auto* looked_at = reinterpret_cast<LookedAt*>(self);
-  if (name == handle_name && looked_at->handle != nullptr)
-    return Py_NewRef(looked_at->handle);
-  if (name == pattern_name && looked_at->pattern != nullptr)
-    return Py_NewRef(looked_at->pattern);
   PyObject* found = PyObject_GenericGetAttr(self, name);
   const bool is_missing = found == nullptr && !is_private(name) && PyErr_ExceptionMatches(PyExc_AttributeError)
     && _PyType_Lookup(Py_TYPE(self), name) == nullptr;
@@ -68,41 +50,10 @@ PyObject* get(PyObject* self, PyObject* name)
   return PyObject_CallMethodObjArgs(self, missing_name, name, nullptr);
 }
 
-int traverse(PyObject* self, visitproc visit, void* arg)
-{
-  Py_VISIT(Py_TYPE(self));
-  Py_VISIT(reinterpret_cast<LookedAt*>(self)->handle);
-  Py_VISIT(reinterpret_cast<LookedAt*>(self)->pattern);
-  return 0;
-}
-
-int clear(PyObject* self)
-{
-  Py_CLEAR(reinterpret_cast<LookedAt*>(self)->handle);
-  Py_CLEAR(reinterpret_cast<LookedAt*>(self)->pattern);
-  return 0;
-}
-
-void dealloc(PyObject* self)
-{
-  PyTypeObject* self_type = Py_TYPE(self);
-  PyObject_GC_UnTrack(self);
-  clear(self);
-  self_type->tp_free(self);
-  Py_DECREF(self_type);
-}
-
-PyMemberDef members[] = {
-    {"_handle", T_OBJECT_EX, offsetof(LookedAt, handle), 0, nullptr},
-    {"_pattern", T_OBJECT_EX, offsetof(LookedAt, pattern), 0, nullptr},
-    {nullptr, 0, 0, 0, nullptr}};
-
 } // namespace
 
 PyObject* make_type()
 {
-  handle_name = PyUnicode_InternFromString("_handle");
-  pattern_name = PyUnicode_InternFromString("_pattern");
   called_names = PySet_New(nullptr);
   unlooked_name = PyUnicode_InternFromString("_unlooked");
   ask_name = PyUnicode_InternFromString("_is_taken");
@@ -110,18 +61,9 @@ PyObject* make_type()
   PyType_Slot slots[] = {
       {Py_tp_getattro, reinterpret_cast<void*>(get)},
       {Py_tp_setattro, reinterpret_cast<void*>(set)},
-      {Py_tp_traverse, reinterpret_cast<void*>(traverse)},
-      {Py_tp_clear, reinterpret_cast<void*>(clear)},
-      {Py_tp_dealloc, reinterpret_cast<void*>(dealloc)},
-      {Py_tp_members, members},
       {Py_tp_doc, const_cast<char*>("What looks at names that are set, or not there; the base of Assignable.")},
       {0, nullptr}};
-  PyType_Spec spec = {
-      "pydart2.pydart2_api.LookedAt",
-      sizeof(LookedAt),
-      0,
-      Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC,
-      slots};
+  PyType_Spec spec = {"pydart2.pydart2_api.LookedAt", 0, 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE, slots};
   return called_names == nullptr ? nullptr : PyType_FromSpec(&spec);
 }
 

@@ -4,9 +4,8 @@
 
 /// LookedAt, the base in C of pydart2.assignment.Assignable: an attribute is set as in any object, and only of a name
 /// that is not in its class's set `_unlooked` Python is asked first: `_is_taken(name, value)`. Of a name that is not
-/// there `_raise_missing(name)` is asked, which raises. In Python a `__setattr__` would cost 250 ns at each setting.
-/// `_handle` and `_pattern`, which nearly every accessor reads, are kept in the object itself and not in its `__dict__`:
-/// a type that looks at names has lost Python's own short way to attributes, and they cost 20 ns each.
+/// there `_raise_missing(name)` is asked, which raises. In Python a `__setattr__` would cost 250 ns at each setting, a
+/// `__getattr__` 5 ns at each reading.
 namespace pydart2::looked_at {
 
 /// Makes the type; null with a Python error set.
