@@ -199,3 +199,19 @@ def test_restored_forces_are_read() -> None:
     skel.tau = np.full(skel.ndofs, 2.0)
     world.restore(saved)
     np.testing.assert_array_equal(skel.tau, 1.0)
+
+
+def test_tau_outlives_the_step_after_a_state_is_put_back_and_after_the_tree_has_changed() -> None:
+    """The step clears the engine's own."""
+    world = pydart2.World(0.001, "skel/chain.skel")
+    skel = world.skeletons[-1]
+    skel.tau = np.full(skel.ndofs, 0.1)
+    snapshot = world.snapshot()
+    skel.tau = np.full(skel.ndofs, 9.0)
+    world.restore(snapshot)
+    world.step()
+    assert (skel.tau == 0.1).all()
+    skel.tau = np.arange(skel.ndofs) * 0.1
+    skel.remove_body(skel.bodynodes[-1])
+    world.step()
+    assert (skel.tau == np.arange(skel.ndofs) * 0.1).all()

@@ -17,6 +17,7 @@ using dart::dynamics::Joint;
 SkeletonHandle::SkeletonHandle(WorldRef world, SkeletonRef skeleton)
   : skeleton_(world, skeleton, skeleton->skeleton.get())
 {
+  skeleton->last_forces(); // of a tree that has changed: now, before a step clears them
 }
 
 int SkeletonHandle::id() const

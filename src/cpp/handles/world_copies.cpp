@@ -32,8 +32,10 @@ void WorldHandle::snapshot(Output& out)
 void WorldHandle::restore(const VectorIn& snapshot)
 {
   restore_state(world(), {snapshot.data, snapshot.data + snapshot.size});
-  for (const auto& skeleton : record_->skeletons)
+  for (const auto& skeleton : record_->skeletons) {
     skeleton->forget_last_forces();
+    skeleton->last_forces(); // now, before a step clears them
+  }
 }
 
 std::vector<std::string> WorldHandle::model_texts() const
