@@ -16,7 +16,7 @@ COUNT, HALF, WALL = 500, 0.8, 0.8  # bodies; half the width of the box, m; heigh
 def pour(world: pydart.World) -> None:
     """Bodies in layers above the box, each turned at random."""
     draw = np.random.default_rng(0)
-    places = np.linspace(-0.65, 0.65, 6)
+    places = np.linspace(-0.55, 0.55, 6)
     for i in range(COUNT):
         layer, cell = divmod(i, 36)
         position = [places[cell % 6], places[cell // 6], 0.2 + 0.22 * layer]

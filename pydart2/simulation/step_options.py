@@ -107,7 +107,8 @@ class StepOptions(WorldPart):
 
         ========================== ======================================================================
         `iterations` = 28          sweeps in a step, at most
-        `tolerance` = 3e-6         m/s, rad/s: the sweeps end when none changes a velocity by more
+        `tolerance` = 3e-6         m/s, rad/s: the residual at which the sweeps end. With "split", what impulses
+                                   move and is slower than 100 of these (of 3e-6 at most) loses two in a step
         `friction` = "pyramid"     each of two tangents within mu times the normal force, so that along their
                                    diagonal it reaches sqrt(2) times that; "cone": both together; "engine": bounds
                                    from the normal forces without friction, which the engine takes

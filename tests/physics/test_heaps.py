@@ -76,6 +76,46 @@ def test_rest_is_quiet_for_ten_seconds(build: Callable[[pydart2.World, int], Non
     test_rest_is_quiet(build, size, 9.0)
 
 
+@pytest.mark.parametrize(("rows", "most"), [(4, 1.5), (20, 5.0)])
+def test_walls_at_rest_take_few_sweeps(rows: int, most: float) -> None:
+    """A large wall no more than some: else a contact of it takes many times as long as one of a small wall."""
+    world = world_of()
+    wall(world, rows)
+    world.step(250)
+    options = world.constraint_solver_options()
+    sweeps = []
+    for _ in range(180):
+        world.step()
+        sweeps.append(world.solver_iterations())
+        assert world.solver_residual() <= options["tolerance"] or sweeps[-1] == options["iterations"]
+    assert np.mean(sweeps) <= most
+
+
+@pytest.mark.parametrize(
+    ("speed", "tolerance", "loss"), [(1e-4, 3e-6, 6e-6), (1e-4, 3e-3, 6e-6), (1e-3, 3e-6, 0.0), (1e-4, 1e-8, 0.0)]
+)
+def test_what_sweeps_leave_comes_to_rest(speed: float, tolerance: float, loss: float) -> None:
+    """On a floor without friction a box loses two tolerances a step, if it is slower than a hundred."""
+    world = world_of(friction=0.0)
+    world.set_constraint_solver("iterative", tolerance=tolerance)
+    box = world.add_box((0.2, 0.2, 0.2), 1.0, (0.0, 0.0, 0.1))
+    world.step(20)
+    box.dq = [0.0, 0.0, 0.0, speed, 0.0, 0.0]
+    for step in range(1, 26):
+        world.step()
+        assert box.dC[0] == pytest.approx(max(speed - step * loss, 0.0), abs=1e-7)
+
+
+def test_what_nothing_touches_keeps_its_speed() -> None:
+    """However slow it is, and however near the ground."""
+    world = world_of()
+    world.set_gravity([0.0, 0.0, 0.0])
+    box = world.add_box((0.2, 0.2, 0.2), 1.0, (0.0, 0.0, 0.1001))
+    box.dq = [0.0, 0.0, 0.0, 1e-4, 0.0, 0.0]
+    world.step(50)
+    assert box.dC[0] == pytest.approx(1e-4, rel=1e-12)
+
+
 def test_heavy_on_light() -> None:
     """A mass ratio of 1,000, three high: it stands, and sinks in by no more than 2 % of the light one."""
     world = world_of()

@@ -16,6 +16,7 @@ using Friction = IterativeOptions::Friction;
 constexpr int inner_sweeps = 10; // of one block's rows
 constexpr double rough = 1e-2; // m/s: a residual with which bodies visibly get into each other
 constexpr int newton_steps = 20;
+constexpr double nearly = 4.0; // tolerances: a change with which the residual may be small
 constexpr double quiet = 0.3; // of the tolerance: two bodies that changed less are not solved twice in a sweep
 
 } // namespace
@@ -135,20 +136,20 @@ void Sweeps::prepare(const Island& island)
 
 Swept Sweeps::solve(const Island& island)
 {
-  Swept swept;
+  int sweeps = 0;
   frozen_.resize(0);
   if (options_.friction == Friction::engine) { // first without friction
     const Eigen::VectorXd begun = system_.x.segment(island.row, island.rows);
     frozen_.setZero(island.rows);
     frozen_row_ = island.row;
     begin(island);
-    swept.sweeps = sweep(island);
+    sweeps = sweep(island).sweeps;
     frozen_ = system_.x.segment(island.row, island.rows);
     system_.x.segment(island.row, island.rows) = begun;
   }
   begin(island);
-  swept.sweeps = std::max(swept.sweeps, sweep(island));
-  swept.residual = measure(island);
+  Swept swept = sweep(island);
+  swept.sweeps = std::max(swept.sweeps, sweeps);
   if (swept.residual > rough && island.rows <= NewtonSteps::most_rows)
     swept.residual = refine(island, swept.residual);
   return swept;
@@ -167,8 +168,9 @@ void Sweeps::begin(const Island& island)
     });
 }
 
-/// Until the residual is small; how often.
-int Sweeps::sweep(const Island& island)
+/// Until the residual is small, at which to look is for sweeps that change little: where load moves along points of which
+/// fewer would carry it, changes stay larger.
+Swept Sweeps::sweep(const Island& island)
 {
   auto x = system_.x.segment(island.row, island.rows);
   auto velocities = system_.velocities.segment(island.start, island.size);
@@ -179,8 +181,10 @@ int Sweeps::sweep(const Island& island)
     last_x_ = x;
     last_velocities_ = velocities;
     const double change = pass(island);
-    if (sweep == options_.iterations || change <= options_.tolerance)
-      return sweep; // what is handed out is within its bounds
+    const bool last = sweep == options_.iterations;
+    if (last || change <= nearly * options_.tolerance)
+      if (const double residual = measure(island); last || residual <= options_.tolerance)
+        return {sweep, residual}; // what is handed out is within its bounds
     last_x_ = x - last_x_;
     last_velocities_ = velocities - last_velocities_;
     const double square = last_x_.squaredNorm(), share = sweep == 1 ? 0.0 : square / last_square;

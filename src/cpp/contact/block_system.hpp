@@ -92,7 +92,7 @@ private:
   auto with_view(const Block& block, const Do& act);
 
   void begin(const Island& island);
-  int sweep(const Island& island);
+  Swept sweep(const Island& island);
   double pass(const Island& island);
   double measure(const Island& island);
   double refine(const Island& island, double residual);

@@ -35,6 +35,8 @@ bool has_soft_body(const ConstraintBasePtr& constraint)
   });
 }
 
+constexpr double touching = 1e-7; // m: a gap so narrow is none
+
 } // namespace
 
 void FastConstraintSolver::solve_by_sweeps(const Step& step)
@@ -58,11 +60,11 @@ bool FastConstraintSolver::all_known() const
             });
 }
 
-/// Shapes that nearly touched and did not have not touched.
+/// Shapes that nearly touched and did not have not touched; bodies at rest hover by less than that.
 void FastConstraintSolver::drop_gaps()
 {
   auto& contacts = engine::contacts_of(mCollisionResult);
-  const auto gap = [](const Contact& contact) { return contact.penetrationDepth < 0.0 && contact.force.isZero(0.0); };
+  const auto gap = [](const Contact& contact) { return contact.penetrationDepth < -touching && contact.force.isZero(0.0); };
   contacts.erase(std::remove_if(contacts.begin(), contacts.end(), gap), contacts.end());
 }
 

@@ -60,6 +60,8 @@ void IterativeSolver::solve(double time_step, bool warm, bool reduce, bool doubt
   sweep(time_step, doubt ? std::max(options.allowance, least_allowance_without_gaps) : options.allowance);
   if (warm)
     remember();
+  if (options.split)
+    calm();
   apply(time_step);
 }
 
@@ -260,6 +262,14 @@ void IterativeSolver::solve_island(const BlockSystem::Island& island, double tim
   all.residual = std::max(all.residual, one.residual);
   if (options.split)
     all.corrects |= sweeps.find_corrections(island, time_step, corrected_);
+}
+
+/// Sweeps leave velocities of the size of their tolerance, and walls sway by what all of their rows have left: a body
+/// that is slow loses as much of its speed.
+void IterativeSolver::calm()
+{
+  const double noise = std::min(options.tolerance, IterativeOptions().tolerance);
+  movers_.calm(system_.velocities, 2.0 * noise, 100.0 * noise);
 }
 
 void IterativeSolver::keep_corrections()

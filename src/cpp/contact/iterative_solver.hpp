@@ -89,6 +89,7 @@ private:
   void recall();
   void remember();
   void sweep(double time_step, double allowance);
+  void calm();
   void apply(double time_step);
   void apply_contact(const Block& block, const Source& source, double time_step);
   void apply_wrench(Movers::Place place, dart::dynamics::BodyNode& body, const Eigen::Vector6d& wrench) const;

@@ -165,6 +165,19 @@ Movers::Vector6 Movers::joint_change(const Mover& mover, const Eigen::VectorXd& 
   return dart::math::AdInvT(body.joint->getTransformFromChildBodyNode(), twist);
 }
 
+void Movers::calm(Eigen::VectorXd& velocities, double noise, double most) const
+{
+  for (const auto& mover : movers_) {
+    if (mover.tree != none)
+      continue;
+    auto change = velocities.segment<6>(mover.start);
+    const Vector6 velocity = mover.body->velocity + change;
+    const double speed = mover.body->speed(velocity);
+    if (speed < most && !change.isZero(0.0))
+      change -= velocity * (speed > noise ? noise / speed : 1.0);
+  }
+}
+
 void Movers::move_free(const Eigen::VectorXd& velocities, double time_step) const
 {
   for (const auto& mover : movers_) {

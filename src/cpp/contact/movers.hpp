@@ -59,6 +59,10 @@ public:
   /// Of a unit impulse at a joint's degree of freedom.
   void joint_row(Place place, int dof, double* J, double* Y);
 
+  /// Takes from the change `velocities` what would leave free bodies that impulses move with a speed of no more than
+  /// `noise`, and as much from those that are slower than `most`.
+  void calm(Eigen::VectorXd& velocities, double noise, double most) const;
+
   /// Gives free bodies their share of the change `velocities` of all: those in the array, or the joints of the others.
   void move_free_in_array(const Eigen::VectorXd& velocities);
   void move_free(const Eigen::VectorXd& velocities, double time_step) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <dart/dynamics/FreeJoint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 #include <unordered_map>
@@ -45,6 +46,13 @@ public:
     Vector6 correction;      ///< A velocity of the centre of mass for the integration of positions alone.
     Vector6 command;         ///< Of the joint, in the body's frame.
     bool pushed;             ///< By a force that is cleared after the step.
+
+    /// The one that all of its mass would have with the same kinetic energy, of a velocity as `velocity` is.
+    double speed(const Vector6& of) const
+    {
+      const Vector3 turning = pose.linear().transpose() * of.head<3>();
+      return std::sqrt(of.tail<3>().squaredNorm() + turning.dot(inertia * turning) / mass);
+    }
   };
 
   /// Whether a skeleton is one such body: without limits, springs, dampers or friction in its joint.
