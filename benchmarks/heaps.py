@@ -5,8 +5,8 @@ comes to rest for a while; then the time of a step is the median over pieces of 
 both put to sleep what lies still, and step it for 3 s first. Sag is how far the lowest body is below where it would
 stand.
 
-    python benchmarks/heaps.py                 all scenes
-    python benchmarks/heaps.py "stack of 20"   some of them
+    python benchmarks/heaps.py                 all scenes, and how the time of a contact grows
+    python benchmarks/heaps.py "stack of 20"   some of them, or "growth"
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ import pydart2
 
 SIDE = 0.2  # m, of a box
 PIECES = 9
+GROWTH = "growth"
 
 
 @dataclass(frozen=True)
@@ -216,10 +217,31 @@ def measure(scene: Scene) -> list[object]:
 
 def rows(names: list[str]) -> Iterator[list[object]]:
     """A line for each scene."""
-    for name in names or SCENES:
+    for name in names:
         yield [name, *measure(SCENES[name]())]
+
+
+def growth(kind: type[Ours] | type[Theirs]) -> float:
+    """Time of a contact in the wall of 400 to that in the wall of 16, the two in turn: the median."""
+    small, large = players = kind(wall(4)), kind(wall(20))
+    for player in players:
+        player.step(250)
+    ratios = []
+    for _ in range(2 * PIECES):
+        times = []
+        for player, steps in ((small, 200), (large, 20)):
+            begin = time.process_time()
+            player.step(steps)
+            times.append((time.process_time() - begin) / steps / player.contacts())
+        ratios.append(times[1] / times[0])
+    return statistics.median(ratios)
 
 
 if __name__ == "__main__":
     head = ["scene", "ours, µs", "MuJoCo, µs", "ratio", "contacts", "sag, mm", "residual, m/s"]
-    print(table(head, list(rows(sys.argv[1:]))))
+    names = sys.argv[1:] or [*SCENES, GROWTH]
+    if scenes := [name for name in names if name != GROWTH]:
+        print(table(head, list(rows(scenes))))
+    if GROWTH in names:
+        print(f"A contact of the wall of 400 takes {growth(Ours):.1f} times that of the wall of 16,", end=" ")
+        print(f"in MuJoCo {growth(Theirs):.1f} times.")

@@ -16,6 +16,7 @@ using Friction = IterativeOptions::Friction;
 constexpr int inner_sweeps = 10; // of one block's rows
 constexpr double rough = 1e-2; // m/s: a residual with which bodies visibly get into each other
 constexpr int newton_steps = 20;
+constexpr double deep = 2.0; // allowances, at least, is what is corrected
 constexpr double nearly = 4.0; // tolerances: a change with which the residual may be small
 constexpr double quiet = 0.3; // of the tolerance: two bodies that changed less are not solved twice in a sweep
 
@@ -172,6 +173,9 @@ void Sweeps::begin(const Island& island)
 /// fewer would carry it, changes stay larger.
 Swept Sweeps::sweep(const Island& island)
 {
+  if (island.calms)
+    if (const double residual = measure(island); residual <= options_.noise())
+      return {0, residual};
   auto x = system_.x.segment(island.row, island.rows);
   auto velocities = system_.velocities.segment(island.start, island.size);
   along_x_.setZero(island.rows);
@@ -363,7 +367,7 @@ double Sweeps::residual_of(V& view) const
 bool Sweeps::find_corrections(const Island& island, double time_step, Eigen::VectorXd& out)
 {
   const auto first = system_.blocks.begin() + island.first, last = system_.blocks.begin() + island.last;
-  if (std::none_of(first, last, [this](const Block& block) { return block.contact && block.depth > options_.allowance; }))
+  if (std::none_of(first, last, [this](const Block& block) { return block.contact && block.depth > deep * options_.allowance; }))
     return false;
   velocities_ = out.data();
   auto x = Eigen::VectorXd::Zero(island.rows).eval();

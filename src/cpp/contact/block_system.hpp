@@ -35,6 +35,7 @@ struct BlockSystem
   {
     int first = 0, last = 0; ///< Blocks.
     int row = 0, rows = 0, start = 0, size = 0; ///< Of the rows and velocities.
+    bool calms = true; ///< Its bodies lose the speed that sweeps leave.
   };
 
   std::vector<Block> blocks; ///< One island after the other.

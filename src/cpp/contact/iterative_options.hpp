@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 namespace pydart2 {
 
@@ -21,6 +22,9 @@ struct IterativeOptions
   double allowance = 1e-6;      ///< m: the depth that stays.
   double correction_speed = 1.0; ///< m/s: at most this fast.
   int threads = 1;               ///< That solve the groups; results do not depend on it.
+
+  /// m/s, rad/s: what the sweeps leave at best, and is taken for rest.
+  double noise() const { return std::min(tolerance, 3e-6); }
 };
 
 /// Iterations, tolerance, friction, split, error reduction, allowance, correction speed; all but the threads.

@@ -179,6 +179,7 @@ void IterativeSolver::place_velocities()
     if (auto* its = island(mover)) {
       movers_.set_start(mover, its->size);
       its->size += movers_.dofs(mover);
+      its->calms &= options.split && movers_.free(mover);
     }
   int size = 0;
   for (auto& each : system_.islands) {
@@ -268,8 +269,7 @@ void IterativeSolver::solve_island(const BlockSystem::Island& island, double tim
 /// that is slow loses as much of its speed.
 void IterativeSolver::calm()
 {
-  const double noise = std::min(options.tolerance, IterativeOptions().tolerance);
-  movers_.calm(system_.velocities, 2.0 * noise, 100.0 * noise);
+  movers_.calm(system_.velocities, 2.0 * options.noise(), 100.0 * options.noise());
 }
 
 void IterativeSolver::keep_corrections()
