@@ -43,7 +43,7 @@ class _File:
         while chosen in taken:
             chosen += "_"
         if chosen != name and kind in ("body", "joint"):
-            self.losses.add(f"names of bodies and joints that others have, now as {chosen!r}", name)
+            self.losses.add("names of bodies and joints that others have, now after their skeleton's", chosen)
         taken.add(chosen)
         return chosen
 

@@ -131,6 +131,18 @@ def test_contact_reduction_keeps_the_sum_of_forces() -> None:
     assert np.mean(forces) == pytest.approx(9.81 * robot.m, rel=0.01)
 
 
+@pytest.mark.parametrize("solver", ["fast", "dart", "iterative"])
+def test_contact_reduction_keeps_the_corners(solver: str) -> None:
+    world = pydart2.World(0.002, up="z")
+    world.add_box([4.0, 4.0, 1.0], None, [0.0, 0.0, -0.5], fixed=True)
+    world.add_box([1.0, 0.6, 0.2], 1.0, [0.0, 0.0, 0.1])
+    world.set_constraint_solver(solver)
+    world.set_contact_reduction(True)
+    world.step(50)
+    bearing = {tuple(contact.p[:2].round(3)) for contact in world.collision_result.contacts if np.any(contact.f)}
+    assert bearing == {(-0.5, -0.3), (-0.5, 0.3), (0.5, -0.3), (0.5, 0.3)}
+
+
 def test_reduced_contacts_do_not_depend_on_the_solver() -> None:
     worlds = [standing_atlas() for _ in range(2)]
     for world, name in zip(worlds, ("fast", "dart")):

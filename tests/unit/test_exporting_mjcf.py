@@ -185,6 +185,16 @@ def test_what_is_lost_is_said_once(caplog: pytest.LogCaptureFixture) -> None:
         skel.to_mjcf(strict=True)
 
 
+def test_names_that_others_have_are_said_once(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    world = pydart.World(0.001)
+    for _ in range(4):
+        world.add_skeletons(pydart.data_path("skel/chain.skel"))
+    with caplog.at_level(logging.WARNING, "pydart2"):
+        world.save(tmp_path / "chains.xml")
+    assert caplog.text.count("names of bodies and joints that others have") == 1
+    assert len(caplog.text) < 1000 and "more)" in caplog.text
+
+
 def test_cameras_see_the_same(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     """In all modes, on bodies and on none, in states of motion; a format without cameras says which are left out."""
     world = pydart.World(0.001, up="z")
