@@ -115,8 +115,8 @@ class StepOptions(WorldPart):
         `stabilisation` = "split"  depth is taken away by moving the bodies, which their velocities do not see;
                                    "engine": by velocities, at 1 mm/s at most
         `error_reduction` = 0.2    part of the depth that a step of "split" takes away
-        `allowance` = 1e-6         m: depth that "split" leaves; 1e-4 at least with other detectors than "native",
-                                   which alone sees what nearly touches
+        `allowance` = 1e-6         m: depth that "split" leaves, and from twice which on it acts; 1e-4 at least with
+                                   other detectors than "native", which alone sees what nearly touches
         `correction_speed` = 1     m/s: "split" is not faster
         `threads` = 1              that solve the groups of what touches each other, 1 in a `Batch`; results do not
                                    depend on it

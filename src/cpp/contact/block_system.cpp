@@ -169,8 +169,8 @@ void Sweeps::begin(const Island& island)
     });
 }
 
-/// Until the residual is small, at which to look is for sweeps that change little: where load moves along points of which
-/// fewer would carry it, changes stay larger.
+/// Until the residual is small. It is looked at where a sweep changes little, if not less than the tolerance: where fewer
+/// points would carry the load, it moves from one to the other for good.
 Swept Sweeps::sweep(const Island& island)
 {
   if (island.calms)
