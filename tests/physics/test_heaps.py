@@ -106,6 +106,15 @@ def test_what_sweeps_leave_comes_to_rest(speed: float, tolerance: float, loss: f
         assert box.dC[0] == pytest.approx(max(speed - step * loss, 0.0), abs=1e-7)
 
 
+def test_no_gap_without_a_force_is_a_contact() -> None:
+    """In a wall, where many shapes nearly touch."""
+    world = world_of()
+    wall(world, 6)
+    for _ in range(20):
+        world.step(20)
+        assert all(contact.depth >= 0.0 or contact.f.any() for contact in world.collision_result.contacts)
+
+
 def test_what_nothing_touches_keeps_its_speed() -> None:
     """However slow it is, and however near the ground."""
     world = world_of()

@@ -60,12 +60,15 @@ bool FastConstraintSolver::all_known() const
             });
 }
 
-/// Shapes that nearly touched and did not have not touched; bodies at rest hover by less than that.
+/// Shapes that nearly touched and did not have not touched. Gaps by which bodies at rest hover are told as none.
 void FastConstraintSolver::drop_gaps()
 {
   auto& contacts = engine::contacts_of(mCollisionResult);
   const auto gap = [](const Contact& contact) { return contact.penetrationDepth < -touching && contact.force.isZero(0.0); };
   contacts.erase(std::remove_if(contacts.begin(), contacts.end(), gap), contacts.end());
+  for (auto& contact : contacts)
+    if (contact.penetrationDepth > -touching)
+      contact.penetrationDepth = std::max(contact.penetrationDepth, 0.0);
 }
 
 /// With the native detector, the touches that the contacts are made of; else null.
