@@ -266,6 +266,28 @@ def test_a_node_of_a_removed_body_goes_before_its_body(last: str) -> None:
     run(code, MALLOC_PERTURB_="165")  # what is freed reads as nonsense
 
 
+@pytest.mark.parametrize("dynamics", ["fast", "engine"])
+def test_a_removed_shape_goes_steps_later(dynamics: str) -> None:
+    code = f"""
+    for i in range(20):
+        world = pydart2.World(0.001)
+        world.set_dynamics("{dynamics}")
+        arm = world.add_empty_skeleton().add_body("arm", joint="revolute", axis=(1, 0, 0), joint_position=(0, 1, 0))
+        node = [arm.add_box([1.0, 1.0, 1.0]), arm.add_box([0.1, 0.1, 0.1])][i % 2]
+        shape = node.shape
+        world.step(2)
+        arm.remove_shape(node)
+        world.step(2)
+        refused(lambda: node.world_transform())
+        refused(lambda: shape.size())
+        del node, shape
+        gc.collect()
+        zeros = [bytearray(size) for size in range(1600, 1720, 8) for _ in range(200)]  # where it was, most likely
+        world.step(2)
+    """
+    run(code)
+
+
 def test_a_soft_body_moves_to_another_skeleton() -> None:
     """The engine (6.13) marked the move in memory in front of that of its trees."""
     code = """

@@ -37,6 +37,12 @@ struct GroupMembers : dart::collision::CollisionGroup
   }
 };
 
+/// What hangs on a frame. A node that is removed from its body still does, for as long as somebody holds it.
+struct HangingMembers : dart::dynamics::Entity
+{
+  static void let_go(Entity& entity) { (entity.*(&HangingMembers::changeParentFrame))(nullptr); }
+};
+
 /// The external force on a point of a soft body, in its body's axes.
 struct PointMembers : dart::dynamics::PointMass
 {

@@ -101,7 +101,8 @@ void BodyNodeHandle::remove_shape(long index)
   const auto lock = lock_ode();
   auto& solver = *body_.world->world->getConstraintSolver();
   solver.clearLastCollisionResult(); // it points to the shape
-  body.getShapeNodes()[i]->remove();
+  const NodeOwner owner(body.getShapeNodes()[i]);
+  owner.remove();
   use_detector(solver, solver.getCollisionDetector());
 }
 

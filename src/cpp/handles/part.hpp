@@ -3,9 +3,11 @@
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/DegreeOfFreedom.hpp>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "base/errors.hpp"
+#include "engine/protected_members.hpp"
 #include "state/world_record.hpp"
 
 namespace pydart2 {
@@ -17,6 +19,19 @@ class NodeOwner
 {
 public:
   explicit NodeOwner(Node* node) : body_(node->getBodyNodePtr()), node_(node) {}
+
+  /// From its body, which it does not follow any more: the step knows what hangs on a body, and not when that is freed.
+  void remove() const
+  {
+    node_->remove();
+    HangingMembers::let_go(*node_);
+  }
+
+  void check() const
+  {
+    if (node_->isRemoved())
+      throw Error(Kind::destroyed, "'" + node_->getName() + "' was removed from its body");
+  }
 
 private:
   dart::dynamics::BodyNodePtr body_;
@@ -46,6 +61,8 @@ public:
           Kind::destroyed,
           "the tree of skeleton '" + skeleton->skeleton->getName()
               + "' has changed since this handle was made; take it from the skeleton again");
+    if constexpr (std::is_same_v<Pointer, NodeOwner<T>>)
+      owner_.check();
     return part_;
   }
 
