@@ -22,6 +22,7 @@ QUESTIONS = (
     "engine",
     "solver",
     "newer_engine",
+    "profiles",
     "batch",
     "loading",
 )

@@ -19,6 +19,8 @@ class Model:
         world.set_gravity([0.0, scene["gravity"], 0.0])
         world.set_constraint_solver(os.environ.get("PYDART2_SOLVER", "dart"))
         world.set_recording(False)
+        if detector := os.environ.get("BENCH_DETECTOR"):
+            world.set_collision_detector(detector)
         if scene["robot"]:
             world.add_skeleton(scene["robot"])
         self.skel = skel = max(world.skeletons, key=lambda s: s.ndofs)
