@@ -61,8 +61,13 @@ class Part(Assignable):
         """Be the part that a new object is for: the tree has changed, and the old handle is refused."""
         self._id, self._handle = other._id, other._handle
 
+    def _reduced(self, owner: Assignable) -> tuple[object, ...]:
+        """For pickle and copy: the part of an owner that is in the copy, too. DestroyedError if it is gone."""
+        self._handle.name()
+        return part_of, (owner, self._LIST, self._id)
+
     def __reduce__(self) -> tuple[object, ...]:
-        return part_of, (self.skeleton, self._LIST, self._id)
+        return self._reduced(self.skeleton)
 
 
 def kept(before: dict[str, P], now: P) -> P:
@@ -98,4 +103,4 @@ class BodyPart(Part):
         """Nothing to do; kept for callers of the original."""
 
     def __reduce__(self) -> tuple[object, ...]:
-        return part_of, (self.bodynode, self._LIST, self._id)
+        return self._reduced(self.bodynode)

@@ -6,6 +6,7 @@ import copy
 import gc
 import pickle
 import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -452,6 +453,24 @@ def test_shapes_and_bodies_that_are_gone_do_not_collide(detector: str) -> None:
     world.step(3)
     assert len(world.collision_result.contacts) == 0
     world.clone().step()
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda part: pickle.loads(pickle.dumps(part))])
+def test_parts_that_are_gone_are_not_copied(copied: Callable[[Any], Any]) -> None:
+    """Nor is what has their place now."""
+    skel = pydart.World(0.001).add_empty_skeleton()
+    body = skel.add_body("a")
+    box, ball = body.add_box((1, 1, 1)), body.add_sphere(0.2)
+    body.remove_shape(box)
+    arm, other = skel.add_body("b", "a"), skel.add_body("c", "a")
+    skel.remove_body("b")
+    assert body.shapenodes[box.id] is ball
+    assert skel.bodynodes[arm.id] is other
+    for part in (box, arm):
+        with pytest.raises(pydart.DestroyedError):
+            copied(part)
+    assert copied(ball).shape.radius() == 0.2
+    assert copied(other).name == "c"
 
 
 def test_short_forms_of_a_fork() -> None:
