@@ -30,8 +30,8 @@ demo: setup
 
 # If the process ends in the middle of a test, C++ has the last word: it is shown after all else, without pytest's frames.
 test: setup ahead lint
-	$(VENV)/bin/python -m pytest --capture=sys 2>build/test.err || { status=$$?; \
-	  grep -v -e '^Extension modules' -e '/_pytest/' -e '/pluggy/' build/test.err | tail -50 >&2; exit $$status; }
+	$(VENV)/bin/python -m pytest --capture=sys --numprocesses=2 --dist=loadfile --max-worker-restart=0 2>build/test.err || { status=$$?; \
+	  grep -v -e '^Extension modules' -e '/_pytest/' -e '/pluggy/' -e '/xdist/' -e '/execnet/' build/test.err | tail -50 >&2; exit $$status; }
 
 ahead: setup
 	@mkdir -p build

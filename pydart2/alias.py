@@ -27,7 +27,7 @@ class Alias(property, Generic[Got]):
     """
 
     def __init__(self, long: Callable[[Any], Got]) -> None:
-        super().__init__(LongForm(long.__name__), doc=long.__doc__)
+        super().__init__(LongForm(long), doc=long.__doc__)
 
     if TYPE_CHECKING:
 
@@ -49,11 +49,29 @@ class Settable(Alias[Got], Generic[Got, Given]):
     """
 
     def __init__(self, long: Callable[[Any], Got], set_long: Callable[[Any, Given], object]) -> None:
-        property.__init__(self, LongForm(long.__name__), LongForm(set_long.__name__), doc=long.__doc__)
+        property.__init__(self, LongForm(long), LongForm(set_long), doc=long.__doc__)
 
     if TYPE_CHECKING:
 
         def __set__(self, owner: object, value: Given, /) -> None: ...
+
+
+def forwards(given: str | None = None) -> Callable[[Method], Method]:
+    """Marks a method that only hands on to its handle's of the same name: a short name then asks the handle itself.
+
+    So it does while no subclass and no object has a method of its own, and where the value that is set is an array.
+
+    Parameters
+    ----------
+    given
+        What the handle is given by a method that reads and is told nothing: None, or the attribute of that name.
+    """
+
+    def marked(method: Method) -> Method:
+        method.forwards = given  # type: ignore[attr-defined]
+        return method
+
+    return marked
 
 
 def also(method: Method) -> Method:

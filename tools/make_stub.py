@@ -40,6 +40,7 @@ MADE_IN_PYTHON = ("BatchHandle", "ModelSource", "QueriesHandle", "WorldHandle")
 
 HEAD = '''"""The C++ layer: one handle per engine object. Made by tools/make_stub.py."""
 
+from collections.abc import Callable
 from typing import Any, Self, TypeVar
 
 import numpy as np
@@ -55,7 +56,7 @@ class LookedAt: ...
 
 class LongForm:
     name: str
-    def __init__(self, name: str) -> None: ...
+    def __init__(self, method: Callable[..., Any]) -> None: ...
     def __call__(self, owner: Any, value: Any = ...) -> Any: ...
 
 class NamedVector(np.ndarray[tuple[int], np.dtype[np.float64]]):

@@ -9,7 +9,7 @@ import numpy as np
 from numpy import ndarray
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2.alias import Alias, Settable, also
+from pydart2.alias import Alias, Settable, also, forwards
 from pydart2.multibody.structure import Structure
 from pydart2.skel_vector import SkelVector
 
@@ -17,10 +17,12 @@ from pydart2.skel_vector import SkelVector
 class Coordinates(Structure):
     """The part of Skeleton that reads and sets its state."""
 
+    @forwards("_pattern")
     def positions(self, out: SkelVector | None = None) -> SkelVector:
         """Generalized positions, shape (ndofs,), rad or m. A copy."""
         return self._handle.positions(self._pattern if out is None else out)
 
+    @forwards()
     def set_positions(self, _q: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized positions, shape (ndofs,), rad or m.
 
@@ -35,10 +37,12 @@ class Coordinates(Structure):
 
     set_q = also(set_positions)
 
+    @forwards("_pattern")
     def velocities(self, out: SkelVector | None = None) -> SkelVector:
         """Generalized velocities, shape (ndofs,), rad/s or m/s. A copy."""
         return self._handle.velocities(self._pattern if out is None else out)
 
+    @forwards()
     def set_velocities(self, _qdot: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized velocities, shape (ndofs,), rad/s or m/s, or some of them by name."""
         if isinstance(_qdot, ndarray) and not by_name:
@@ -50,20 +54,24 @@ class Coordinates(Structure):
 
     set_dq = also(set_velocities)
 
+    @forwards("_pattern")
     def accelerations(self, out: SkelVector | None = None) -> SkelVector:
         """Generalized accelerations of the last step, shape (ndofs,), rad/s² or m/s². A copy."""
         return self._handle.accelerations(self._pattern if out is None else out)
 
+    @forwards()
     def set_accelerations(self, _ddq: ArrayLike) -> None:
         """Set the generalized accelerations, shape (ndofs,), rad/s² or m/s²."""
         self._handle.set_accelerations(_ddq)
 
     ddq = Settable(accelerations, set_accelerations)
 
+    @forwards()
     def states(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """[q, dq], shape (2 * ndofs,), rad, m, rad/s and m/s."""
         return self._handle.states(out)
 
+    @forwards()
     def set_states(self, _x: ArrayLike) -> None:
         """Set [q, dq], shape (2 * ndofs,), rad, m, rad/s and m/s."""
         self._handle.set_states(_x)
@@ -120,25 +128,24 @@ class Coordinates(Structure):
         """
         return self._handle.last_forces(self._pattern)
 
+    @forwards()
     def set_forces(self, _tau: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the generalized forces of the next step, shape (ndofs,), N m or N; or some by name, the others zero."""
-        self.tau = self._vector(_tau, by_name, "")
+        if isinstance(_tau, ndarray) and not by_name:
+            self._handle.set_forces(_tau)
+        else:
+            self._handle.set_forces(self._vector(_tau, by_name, ""))
 
-    @property
-    def tau(self) -> SkelVector:
-        """The generalized forces last set, shape (ndofs,), N m or N; zeros before. A copy. Set for one step."""
-        return self.forces()
-
-    @tau.setter
-    def tau(self, tau: ArrayLike) -> None:
-        self._handle.set_forces(tau)
+    tau = Settable(forces, set_forces)
 
     set_tau = also(set_forces)
 
+    @forwards("_pattern")
     def commands(self, out: SkelVector | None = None) -> SkelVector:
         """Commands to the actuators, shape (ndofs,), in the unit of each joint's actuator type. A copy."""
         return self._handle.commands(self._pattern if out is None else out)
 
+    @forwards()
     def set_commands(self, _commands: ArrayLike | Mapping[str, float] | None = None, **by_name: float) -> None:
         """Set the commands of the next step, shape (ndofs,), or some by name.
 

@@ -5,19 +5,21 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pydart2.alias import Alias
+from pydart2.alias import Alias, forwards
 from pydart2.multibody.coordinates import Coordinates
 
 
 class Masses(Coordinates):
     """The part of Skeleton with its masses and forces in the present state."""
 
+    @forwards()
     def mass_matrix(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Joint-space mass matrix, shape (ndofs, ndofs), kg m² or kg."""
         return self._handle.mass_matrix(out)
 
     M = Alias(mass_matrix)
 
+    @forwards()
     def inv_mass_matrix(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Inverse of the mass matrix, shape (ndofs, ndofs), 1/(kg m²) or 1/kg."""
         return self._handle.inv_mass_matrix(out)
@@ -26,6 +28,7 @@ class Masses(Coordinates):
 
     Minv = Alias(inv_mass_matrix)
 
+    @forwards()
     def coriolis_and_gravity_forces(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Coriolis, centrifugal and gravity forces, shape (ndofs,), N m or N."""
         return self._handle.coriolis_and_gravity_forces(out)
@@ -44,6 +47,7 @@ class Masses(Coordinates):
 
     m = Alias(mass)
 
+    @forwards()
     def com(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Centre of mass, world frame, shape (3,), m."""
         return self._handle.com(out)

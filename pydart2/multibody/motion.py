@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pydart2.alias import Alias, also
+from pydart2.alias import Alias, also, forwards
 from pydart2.frames import Frame
 from pydart2.multibody.part import Part
 
@@ -22,6 +22,7 @@ class Motion(Frame, Part):
     dependent_dofs: list[Dof]
     _handle: BodyNodeHandle
 
+    @forwards()
     def transform(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Pose of the body frame in the world, shape (4, 4), m."""
         return self._handle.transform(out)

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import pydart2
+from pydart2.alias import Alias
 
 SEVEN = np.full(6, 7.0)
 
@@ -61,9 +62,52 @@ def test_a_process_that_unpickles_it_hears_of_it(cubes: pydart2.World, tmp_path:
     assert done.stdout.strip() == str(SEVEN.tolist()), done.stderr
 
 
+class Handle:
+    """Keeps what it is asked."""
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[str, tuple[Any, ...]]] = []
+
+    def __getattr__(self, name: str) -> Any:
+        return lambda *given: self.asked.append((name, given))
+
+
+def short_forms(cls: type) -> dict[str, property]:
+    members = {name: getattr(cls, name) for name in dir(cls)}
+    return {name: alias for name, alias in members.items() if isinstance(alias, Alias)}
+
+
+@pytest.mark.parametrize("kind", [pydart2.Skeleton, pydart2.BodyNode])
+def test_short_forms_ask_the_handle_what_the_long_form_asks(cubes: pydart2.World, kind: Any) -> None:
+    """Those of methods that only hand on leave the method out."""
+    cube = cubes.skeletons[1]
+    owner, forwarded = (cube if kind is pydart2.Skeleton else cube.bodynodes[0]), 0
+    owner._handle = handle = Handle()
+    for name, alias in short_forms(kind).items():
+        long, set_long = alias.fget.name, alias.fset.name if alias.fset else None
+        if hasattr(getattr(kind, long), "forwards"):
+            getattr(owner, name), getattr(owner, long)()
+            forwarded += 1
+        if hasattr(getattr(kind, set_long or "", None), "forwards"):
+            setattr(owner, name, SEVEN), getattr(owner, set_long)(SEVEN)
+            forwarded += 1
+    assert len(handle.asked) == 2 * forwarded > 0
+    for (name, (given,)), (long, (otherwise,)) in zip(handle.asked[::2], handle.asked[1::2], strict=True):
+        assert name == long and given is otherwise
+
+
+def test_what_is_set_by_name_goes_the_long_way(cubes: pydart2.World) -> None:
+    cube = cubes.skeletons[1]
+    cube.q = {"joint 1_pos_y": 0.5}
+    cube.tau = {"joint 1_pos_y": 2.0}
+    assert cube.q["joint 1_pos_y"] == 0.5 and cube.tau["joint 1_pos_y"] == 2.0
+    cube.dq = [1.0] * 6
+    assert cube.dq.tolist() == [1.0] * 6
+
+
 def test_no_value_is_none(cubes: pydart2.World) -> None:
     cube = cubes.skeletons[1]
-    for name in ("q", "dq", "ddq", "x", "comms"):
+    for name in ("q", "dq", "ddq", "x", "comms", "tau"):
         with pytest.raises(TypeError, match=r"s cannot be None$"):
             setattr(cube, name, None)
 

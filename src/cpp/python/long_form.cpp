@@ -16,7 +16,11 @@ struct LongForm
   PyObject_HEAD
   vectorcallfunc call;
   PyObject* name;
+  PyObject* method;
+  PyObject* given; // by a method that only forwards, to read: None, or the attribute of that name; else null
 };
+
+PyObject* handle_name = nullptr;
 
 /// The method, if it is a function of the class that nothing in the object hides (new reference); else null.
 PyObject* find_function(PyObject* owner, PyObject* name)
@@ -27,45 +31,75 @@ PyObject* find_function(PyObject* owner, PyObject* name)
   return found != nullptr && PyFunction_Check(found) ? Py_NewRef(found) : nullptr;
 }
 
+/// Whether the function would only hand on to the handle: what is read, or an array that is set.
+bool only_forwards(const LongForm& form, PyObject* function, PyObject* value)
+{
+  return form.given != nullptr && function == form.method && (value == nullptr || PyObject_CheckBuffer(value));
+}
+
+/// What that function would do.
+PyObject* forward(const LongForm& form, PyObject* owner, PyObject* value)
+{
+  PyObject* handle = PyObject_GetAttr(owner, handle_name);
+  if (handle == nullptr)
+    return nullptr;
+  const bool is_attribute = value == nullptr && form.given != Py_None;
+  PyObject* given = is_attribute ? PyObject_GetAttr(owner, form.given) : Py_NewRef(value == nullptr ? Py_None : value);
+  PyObject* args[] = {handle, given};
+  PyObject* result = given == nullptr ? nullptr : PyObject_VectorcallMethod(form.name, args, 2, nullptr);
+  Py_DECREF(handle);
+  Py_XDECREF(given);
+  return result;
+}
+
 /// The object, and the value if one is set.
 PyObject* call(PyObject* self, PyObject* const* args, std::size_t flagged_count, PyObject* names)
 {
-  PyObject* method = reinterpret_cast<LongForm*>(self)->name;
+  const auto& form = *reinterpret_cast<LongForm*>(self);
   const auto count = PyVectorcall_NARGS(flagged_count);
   if (names != nullptr || count < 1 || count > 2) {
-    PyErr_Format(PyExc_TypeError, "%U() takes an object and at most one value", method);
+    PyErr_Format(PyExc_TypeError, "%U() takes an object and at most one value", form.name);
     return nullptr;
   }
   if (count == 2 && args[1] == Py_None) { // which the method may take for an argument that is left out
-    PyErr_Format(PyExc_TypeError, "%s cannot be None", PyUnicode_AsUTF8(method) + std::strlen("set_"));
+    PyErr_Format(PyExc_TypeError, "%s cannot be None", PyUnicode_AsUTF8(form.name) + std::strlen("set_"));
     return nullptr;
   }
-  PyObject* function = find_function(args[0], method);
+  PyObject* function = find_function(args[0], form.name);
   if (function == nullptr)
-    return PyObject_VectorcallMethod(method, args, static_cast<std::size_t>(count), nullptr);
-  PyObject* result = PyObject_Vectorcall(function, args, static_cast<std::size_t>(count), nullptr);
+    return PyObject_VectorcallMethod(form.name, args, static_cast<std::size_t>(count), nullptr);
+  PyObject* value = count == 2 ? args[1] : nullptr;
+  PyObject* result = only_forwards(form, function, value)
+      ? forward(form, args[0], value)
+      : PyObject_Vectorcall(function, args, static_cast<std::size_t>(count), nullptr);
   Py_DECREF(function);
   return result;
 }
 
 PyObject* make(PyTypeObject* type, PyObject* args, PyObject*)
 {
-  PyObject* name = nullptr;
-  if (!PyArg_ParseTuple(args, "U", &name))
+  PyObject* method = nullptr;
+  if (!PyArg_ParseTuple(args, "O!", &PyFunction_Type, &method))
     return nullptr;
   auto* made = PyObject_New(LongForm, type);
   if (made == nullptr)
     return nullptr;
   made->call = call;
-  made->name = Py_NewRef(name);
+  made->name = Py_NewRef(reinterpret_cast<PyFunctionObject*>(method)->func_name);
   PyUnicode_InternInPlace(&made->name); // so that the cache of look-ups knows it
+  made->method = Py_NewRef(method);
+  PyObject* attributes = reinterpret_cast<PyFunctionObject*>(method)->func_dict;
+  made->given = attributes == nullptr ? nullptr : Py_XNewRef(PyDict_GetItemString(attributes, "forwards"));
   return reinterpret_cast<PyObject*>(made);
 }
 
 void dealloc(PyObject* self)
 {
   PyTypeObject* type = Py_TYPE(self);
-  Py_DECREF(reinterpret_cast<LongForm*>(self)->name);
+  auto* form = reinterpret_cast<LongForm*>(self);
+  Py_DECREF(form->name);
+  Py_DECREF(form->method);
+  Py_XDECREF(form->given);
   PyObject_Free(self);
   Py_DECREF(type);
 }
@@ -79,12 +113,13 @@ PyMemberDef members[] = {
 
 PyObject* make_type()
 {
+  handle_name = PyUnicode_InternFromString("_handle");
   PyType_Slot slots[] = {
       {Py_tp_new, reinterpret_cast<void*>(make)},
       {Py_tp_dealloc, reinterpret_cast<void*>(dealloc)},
       {Py_tp_call, reinterpret_cast<void*>(PyVectorcall_Call)},
       {Py_tp_members, members},
-      {Py_tp_doc, const_cast<char*>("Calls the method of that name of what it is given.")},
+      {Py_tp_doc, const_cast<char*>("Calls the method of that name of what it is called with.")},
       {0, nullptr}};
   PyType_Spec spec = {
       "pydart2.pydart2_api.LongForm", sizeof(LongForm), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_HAVE_VECTORCALL, slots};
