@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/large_pages.hpp"
 #include "contact/fast_solver.hpp"
 #include "state/world_record.hpp"
 
@@ -53,6 +54,7 @@ void make_anew(WorldRecord& world)
       plan.other_skeletons.push_back(item->skeleton);
     }
   plan.stale = false;
+  use_large_pages();
 }
 
 } // namespace
