@@ -163,8 +163,9 @@ def main() -> None:
     print("\nAtlas apart without contact, with the native detector: of a robot and step, and of a robot's copy.\n")
     print(table(["robots", "µs", *columns()], rows_of(MANY, room_of)))
     print(
-        "\nThe dynamics of a robot are the same in each row; what they take more of many is, most likely, the wait\n"
-        "for memory that no longer fits into the caches. A copy makes the engine's objects, and Python's, one by one."
+        "\nThe dynamics of a robot are the same in each row: what they take more of many is the wait for memory, of\n"
+        "which pages of 2 MB (`src/cpp/base/large_pages.hpp`) leave little. A copy makes the engine's objects, and\n"
+        "Python's, one by one."
     )
 
 
