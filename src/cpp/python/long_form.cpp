@@ -17,7 +17,7 @@ struct LongForm
   vectorcallfunc call;
   PyObject* name;
   PyObject* method;
-  PyObject* given; // by a method that only forwards, to read: None, or the attribute of that name; else null
+  PyObject* given; // what a method that only forwards gives to read: None, or an attribute's name; null for others
 };
 
 PyObject* handle_name = nullptr;
