@@ -5,8 +5,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <fstream>
-#include <string>
 
 #ifndef MADV_COLLAPSE
 #define MADV_COLLAPSE 25 // younger than Debian 12's headers
@@ -19,22 +17,21 @@ namespace {
 constexpr std::uintptr_t page = 2 << 20;
 constexpr std::uintptr_t much = 32 * page;
 
-/// In whole pages; the end of the address space if there is no such heap.
-std::uintptr_t heap_begin()
+/// In whole pages.
+std::uintptr_t heap_end()
 {
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);)
-    if (line.find("[heap]") != std::string::npos)
-      return (std::stoull(line, nullptr, 16) + page - 1) / page * page;
-  return UINTPTR_MAX - much;
+  return reinterpret_cast<std::uintptr_t>(sbrk(0)) / page * page;
 }
+
+/// Up to where that is done, or not wanted: what was there at import. Known from then on, for a child that is forked in the
+/// middle of a first step would wait for ever for what that begins to find out.
+std::atomic<std::uintptr_t> done{heap_end()};
 
 } // namespace
 
 void use_large_pages()
 {
-  static std::atomic<std::uintptr_t> done{heap_begin()};
-  const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0)) / page * page;
+  const auto end = heap_end();
   auto begin = done.load();
   if (end >= begin && end < begin + much)
     return;
