@@ -138,12 +138,15 @@ def falls(start: int, dt: float, seconds: float, sleeps: bool) -> float:
 
 @pytest.mark.parametrize(("count", "seconds"), [(int(os.environ.get("LIMP_STARTS", "1000")), 5.0), (20, 60.0)])
 @pytest.mark.parametrize("dt", [1e-3, 2e-3])
-@pytest.mark.parametrize(("sleeps", "least"), [(True, 1.0), (False, 0.97)], ids=["sleeps", "creeps"])
-def test_a_limp_human_falls_down_and_lies(sleeps: bool, least: float, dt: float, count: int, seconds: float) -> None:
-    """None blows up. All lie still for the last 2 s where what is slow may sleep; else some joints creep for long."""
+@pytest.mark.parametrize("sleeps", [True, False], ids=["sleeps", "creeps"])
+def test_a_limp_human_falls_down_and_lies(sleeps: bool, dt: float, count: int, seconds: float) -> None:
+    """None blows up, and all come to rest: where what is slow may sleep, for the last 2 s; else within 8 s more.
+
+    By the engine's contacts some creep until they topple once more: it takes depth away by 1 mm/s at most.
+    """
     with multiprocessing.Pool() as pool:
         moved = np.array(pool.starmap(falls, [(start, dt, seconds, sleeps) for start in range(count)], chunksize=1))
     still = np.count_nonzero(moved <= seconds - 2.0)
     print(f"{count} falls of {seconds:g} s at {1e3 * dt:g} ms: none blew up, {still} lie still for the last 2 s")
     print(f"  the last to move did so at {moved.max():.2f} s")
-    assert still >= least * count
+    assert moved.max() <= (seconds - 2.0 if sleeps else seconds + 8.0)
