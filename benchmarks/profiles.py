@@ -20,9 +20,12 @@ from scenes import atlas_with_meshes, scenes
 SECONDS = 4.0  # of sampling
 HERTZ = 2000
 FALL = 100  # steps
+LYING = 1500  # steps
 CPP = ROOT / "src" / "cpp"
 SCENES = ("cubes", "chain", "fullbody1", "softBodies", "Atlas", "PR2", "Atlas with meshes")
 MANY = ("Atlas × 1", "Atlas × 16", "Atlas × 256", "Atlas × 256, FCL", "clone of 64")
+#: Detector and solver.
+HUMANS = {"native, iterative": ("native", "iterative"), "Bullet": ("bullet", "fast"), "FCL": ("fcl", "fast")}
 #: Of a library's name, and of a function's. The first that is found.
 PARTS = (
     ("contacts found", r"libfcl|libode|libBullet|libLinear|libccd|libassimp", r"^dart::collision::|^room collision"),
@@ -97,6 +100,19 @@ def maker(name: str) -> Callable[[], int]:
             return COPIED
 
         return clone
+    if name in HUMANS:
+        from rollouts import human
+
+        world = human(*HUMANS[name], 0.1)
+        world.step(LYING)
+        lying = world.states()
+
+        def lie() -> int:
+            world.set_states(lying)
+            world.step(FALL)
+            return FALL
+
+        return lie
     scene = {scene.name: scene for scene in [*scenes().values(), *atlas_with_meshes()]}[name]
     model = Model(asdict(scene))
     model.step(scene.warm)
@@ -163,10 +179,11 @@ def main() -> None:
     print("\nAtlas apart without contact, with the native detector: of a robot and step, and of a robot's copy.\n")
     print(table(["robots", "µs", *columns()], rows_of(MANY, room_of)))
     print(
-        "\nThe dynamics of a robot are the same in each row: what they take more of many is the wait for memory, of\n"
-        "which pages of 2 MB (`src/cpp/base/large_pages.hpp`) leave little. A copy makes the engine's objects, and\n"
-        "Python's, one by one."
+        "\nThe dynamics of a robot are the same in each row: what they take more of many is, most likely, the wait\n"
+        "for memory that no longer fits into the caches. A copy makes the engine's objects, and Python's, one by one."
     )
+    print("\nThe limp human after 1.5 s, when it lies; the rows of `iterative` are also swept.\n")
+    print(table(["human", "µs", *columns()], rows_of(tuple(HUMANS), room_of)))
 
 
 if __name__ == "__main__":

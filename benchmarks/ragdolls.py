@@ -43,17 +43,22 @@ def theirs(world: pydart2.World) -> tuple[mujoco.MjModel, mujoco.MjData]:
         path = str(Path(folder) / "ragdolls.xml")
         world.save(path)
         model = mujoco.MjModel.from_xml_path(path)
-    data = mujoco.MjData(model)
     roots = [body for body in range(1, model.nbody) if model.body_rootid[body] == body]
     for geom in range(model.ngeom):
         bit = 1 << roots.index(model.body_rootid[model.geom_bodyid[geom]])
         model.geom_contype[geom], model.geom_conaffinity[geom] = bit, (1 << len(roots)) - 1 - bit
+    data = mujoco.MjData(model)
+    place(model, data, world)
+    return model, data
+
+
+def place(model: mujoco.MjModel, data: mujoco.MjData, world: pydart2.World) -> None:
+    """Put the roots of theirs where ours are."""
     free = [joint for joint in range(model.njnt) if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE]
     for joint, doll in zip(free, world.skeletons[1:], strict=True):
         pose, begin = doll.bodynodes[0].T, model.jnt_qposadr[joint]
         data.qpos[begin : begin + 3] = pose[:3, 3]
         mujoco.mju_mat2Quat(data.qpos[begin + 3 : begin + 7], pose[:3, :3].flatten())
-    return model, data
 
 
 def main() -> None:

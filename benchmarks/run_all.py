@@ -24,6 +24,7 @@ QUESTIONS = (
     "newer_engine",
     "profiles",
     "batch",
+    "rollouts",
     "loading",
 )
 HEAD = """# Measured

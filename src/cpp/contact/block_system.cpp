@@ -91,21 +91,29 @@ struct Sweeps::View
   Eigen::Map<Eigen::Matrix<double, R, 1>> x, b, mixing;
 };
 
-/// Contacts with friction of bodies that are free, and all else.
+/// Contacts with friction of bodies that are free, those of trees, and all else.
 template <class Do>
 auto Sweeps::with_view(const Block& block, const Do& act)
 {
-  if (block.size == 3 && block.sizes[0] == 6) {
-    if (block.sizes[1] == 0) {
-      View<3, 6, 0> view(system_, block, velocities_);
-      return act(view);
-    }
-    if (block.sizes[1] == 6) {
-      View<3, 6, 6> view(system_, block, velocities_);
-      return act(view);
-    }
+  constexpr int any = Eigen::Dynamic;
+  const bool one = block.sizes[1] == 0;
+  if (block.size == 3 && block.sizes[0] == 6 && one) {
+    View<3, 6, 0> view(system_, block, velocities_);
+    return act(view);
   }
-  View<Eigen::Dynamic, Eigen::Dynamic, Eigen::Dynamic> view(system_, block, velocities_);
+  if (block.size == 3 && block.sizes[0] == 6 && block.sizes[1] == 6) {
+    View<3, 6, 6> view(system_, block, velocities_);
+    return act(view);
+  }
+  if (block.size == 3 && one) {
+    View<3, any, 0> view(system_, block, velocities_);
+    return act(view);
+  }
+  if (block.size == 3) {
+    View<3, any, any> view(system_, block, velocities_);
+    return act(view);
+  }
+  View<any, any, any> view(system_, block, velocities_);
   return act(view);
 }
 
@@ -114,9 +122,9 @@ void Sweeps::prepare(const Island& island)
   for (int i = island.first; i < island.last; ++i) {
     auto& block = system_.blocks[static_cast<std::size_t>(i)];
     with_view(block, [this, &block](auto& view) {
-      view.W.noalias() = view.Ja * view.Ya.transpose();
+      view.W = view.Ja.lazyProduct(view.Ya.transpose());
       if constexpr (std::decay_t<decltype(view)>::both)
-        view.W.noalias() += view.Jb * view.Yb.transpose();
+        view.W += view.Jb.lazyProduct(view.Yb.transpose());
       const typename std::decay_t<decltype(view)>::Vector mixed = block.force_mixing * view.W.diagonal();
       if (block.contact && options_.split) // of what changes since the last step: what carries the same for long does not give way
         view.b += mixed.cwiseProduct(view.x);

@@ -10,7 +10,7 @@
 namespace pydart2 {
 
 /// Rows of contacts and constraints in blocks, and blocks in islands that share no velocity. With the numbers of
-/// BoxedLcp: A x = b + w, where A = J Y' and Y' is M^-1 J'.
+/// BoxedLcp: A x = b + w, where A = J Y' and Y' is M^-1 J', or what stands for both (TreeRows).
 struct BlockSystem
 {
   /// The rows of one contact or constraint, at one or two parts of the velocities.
@@ -24,7 +24,7 @@ struct BlockSystem
     double depth = 0.0; ///< m
     double force_mixing = 0.0; ///< What is added to W's diagonal, as a part of it.
 
-    bool joins_as(const Block& other) const { return starts == other.starts && sizes == other.sizes; }
+    bool joins_as(const Block& other) const { return starts == other.starts && (sizes[1] == 0) == (other.sizes[1] == 0); }
 
     std::size_t numbers() const
     {

@@ -28,6 +28,20 @@ Eigen::Vector6d wrench_at(const BodyNode& body, const Eigen::Vector3d& point, co
   return wrench;
 }
 
+/// The same of unit impulses along some directions, each a row.
+TreeRows::Lanes wrenches_at(
+    const BodyNode& body, const Eigen::Vector3d& point, const std::array<Eigen::Vector3d, 3>& directions, int count)
+{
+  TreeRows::Lanes wrenches = TreeRows::Lanes::Zero();
+  const auto& pose = body.getWorldTransform();
+  const Eigen::Vector3d place = pose.linear().transpose() * (point - pose.translation());
+  for (int row = 0; row < count; ++row) {
+    const Eigen::Vector3d impulse = pose.linear().transpose() * directions[static_cast<std::size_t>(row)];
+    wrenches.row(row) << place.cross(impulse).transpose(), impulse.transpose();
+  }
+  return wrenches;
+}
+
 /// Which of a block's two parts is that of a side.
 std::size_t part_of(const std::array<Movers::Place, 2>& places, std::size_t side)
 {
@@ -54,7 +68,7 @@ void IterativeSolver::place_blocks()
       if (const int mover = source.places[side].mover; mover != none) {
         const auto part = part_of(source.places, side);
         block.starts[part] = movers_.start(mover);
-        block.sizes[part] = movers_.dofs(mover);
+        block.sizes[part] = std::max(block.sizes[part], movers_.columns(source.places[side]));
       }
     auto& island = system_.islands[static_cast<std::size_t>(source.island)];
     if (island.rows == 0) {
@@ -88,6 +102,13 @@ void IterativeSolver::fill(double time_step)
   }
 }
 
+/// Some rows of a block, at one of its parts.
+Movers::Rows IterativeSolver::rows_of(const Block& block, std::size_t part, int first, int count)
+{
+  const int length = block.sizes[part], skipped = first * length;
+  return {system_.J(block, static_cast<int>(part)) + skipped, system_.Y(block, static_cast<int>(part)) + skipped, count, length};
+}
+
 /// Rows and right-hand sides of a contact.
 void IterativeSolver::fill_contact(const Block& block, const Source& source, double time_step)
 {
@@ -95,24 +116,32 @@ void IterativeSolver::fill_contact(const Block& block, const Source& source, dou
   const auto& point = terms.contact->point;
   auto b = system_.b.segment(block.row, block.size);
   b.setZero();
-  const auto is_tree = [this](const Movers::Place& place) { return place.mover != none && !movers_.free(place.mover); };
-  if (is_tree(source.places[0]) || is_tree(source.places[1]))
-    fill_tree_contact(block, source);
+  std::array<Movers::Place, 2> in_trees;
+  for (const std::size_t side : {0, 1})
+    if (const auto& place = source.places[side]; place.mover != none && !movers_.free(place.mover))
+      in_trees[side] = place;
+  const bool trees = in_trees[0].mover != none || in_trees[1].mover != none;
+  if (trees) // whose rows are of the joints above alone
+    std::fill_n(system_.J(block, 0), block.numbers(), 0.0);
+  std::array<TreeRows::Lanes, 2> wrenches;
+  std::array<Movers::Rows, 2> rows;
   for (const std::size_t side : {0, 1}) {
-    const auto& place = source.places[side];
+    const int mover = source.places[side].mover;
     const double sign = side == 0 ? 1.0 : -1.0;
-    if (place.mover != none && movers_.free(place.mover)) {
-      const int part = static_cast<int>(part_of(source.places, side));
-      double *J = system_.J(block, part), *Y = system_.Y(block, part);
-      for (int row = 0; row < block.size; ++row, J += 6, Y += 6) {
-        movers_.point_row(place.mover, point, sign * terms.directions[static_cast<std::size_t>(row)], J, Y);
-        b[row] -= movers_.speed(place.mover, J);
+    rows[side] = rows_of(block, part_of(source.places, side), 0, block.size);
+    if (mover != none && movers_.free(mover)) {
+      for (int row = 0; row < block.size; ++row) {
+        const Eigen::Vector3d direction = sign * terms.directions[static_cast<std::size_t>(row)];
+        movers_.point_row(mover, point, direction, rows[side].J + 6 * row, rows[side].Y + 6 * row);
+        b[row] -= movers_.speed(mover, rows[side].J + 6 * row);
       }
-    } else if (const auto* body = terms.bodies[side]; body != nullptr && !body->getSpatialVelocity().isZero(0.0)) {
-      for (int row = 0; row < block.size; ++row)
-        b[row] -= sign * wrench_at(*body, point, terms.directions[static_cast<std::size_t>(row)]).dot(body->getSpatialVelocity());
+    } else if (const auto* body = terms.bodies[side]; body != nullptr && (mover != none || !body->getSpatialVelocity().isZero(0.0))) {
+      wrenches[side] = sign * wrenches_at(*body, point, terms.directions, block.size);
+      b -= wrenches[side].topRows(block.size) * body->getSpatialVelocity();
     }
   }
+  if (trees)
+    movers_.wrench_rows(in_trees, wrenches, rows);
   if (terms.depth < 0.0) // may close its gap
     b[0] += terms.depth / time_step;
   else
@@ -125,49 +154,28 @@ void IterativeSolver::fill_contact(const Block& block, const Source& source, dou
   }
 }
 
-/// Rows of a contact of bodies some of which are parts of trees.
-void IterativeSolver::fill_tree_contact(const Block& block, const Source& source)
-{
-  const auto& terms = contacts_[static_cast<std::size_t>(source.contact)];
-  std::fill_n(system_.J(block, 0), block.numbers(), 0.0);
-  for (int row = 0; row < block.size; ++row) {
-    std::array<Eigen::Vector6d, 2> wrenches{};
-    std::array<double*, 2> J{}, Y{};
-    for (const std::size_t side : {0, 1}) {
-      const auto part = part_of(source.places, side);
-      J[side] = system_.J(block, static_cast<int>(part)) + row * block.sizes[part];
-      Y[side] = system_.Y(block, static_cast<int>(part)) + row * block.sizes[part];
-      if (source.places[side].mover != none)
-        wrenches[side] = (side == 0 ? 1.0 : -1.0)
-                         * wrench_at(*terms.bodies[side], terms.contact->point, terms.directions[static_cast<std::size_t>(row)]);
-    }
-    movers_.wrench_row(source.places, wrenches, J, Y);
-  }
-}
-
 void IterativeSolver::fill_constraint(const Block& block, const Source& source, double time_step)
 {
   const auto& rows = rows_[static_cast<std::size_t>(source.constraint)];
   std::fill_n(system_.J(block, 0), block.numbers(), 0.0);
-  int dof = -1;
-  for (int row = 0; row < block.size; ++row) {
-    std::array<double*, 2> J{}, Y{};
-    for (const int part : {0, 1}) {
-      J[static_cast<std::size_t>(part)] = system_.J(block, part) + row * block.sizes[static_cast<std::size_t>(part)];
-      Y[static_cast<std::size_t>(part)] = system_.Y(block, part) + row * block.sizes[static_cast<std::size_t>(part)];
-    }
-    if (rows.kind == Rows::Kind::joint) {
+  std::array<int, 6> dofs{}; // of a joint's rows
+  if (rows.kind == Rows::Kind::joint)
+    for (int row = 0, dof = -1; row < block.size; dofs[static_cast<std::size_t>(row++)] = dof)
       while (!rows.joint.active[static_cast<std::size_t>(++dof)]) {
       }
-      movers_.joint_row(source.places[0], dof, J[0], Y[0]);
-      continue;
+  for (int first = 0; first < block.size; first += TreeRows::lanes) {
+    const int count = std::min(block.size - first, TreeRows::lanes);
+    std::array<TreeRows::Lanes, 2> wrenches{TreeRows::Lanes::Zero(), TreeRows::Lanes::Zero()};
+    std::array<Movers::Rows, 2> out;
+    for (const std::size_t side : {0, 1}) {
+      out[side] = rows_of(block, part_of(source.places, side), first, count);
+      if (rows.kind == Rows::Kind::bodies && source.places[side].mover != none)
+        wrenches[side].topRows(count) = rows.bodies.directions[side].middleCols(first, count).transpose();
     }
-    const std::array<double*, 2> side_J{J[0], J[part_of(source.places, 1)]}, side_Y{Y[0], Y[part_of(source.places, 1)]};
-    std::array<Eigen::Vector6d, 2> wrenches{};
-    for (const std::size_t side : {0, 1})
-      if (source.places[side].mover != none)
-        wrenches[side] = rows.bodies.directions[side].col(row);
-    movers_.wrench_row(source.places, wrenches, side_J, side_Y);
+    if (rows.kind == Rows::Kind::joint)
+      movers_.joint_rows(source.places[0], dofs.data() + first, out[0]);
+    else
+      movers_.wrench_rows(source.places, wrenches, out);
   }
   double x[6], w[6] = {};
   int findex[6] = {-1, -1, -1, -1, -1, -1};

@@ -83,8 +83,8 @@ private:
   void place_velocities();
   void place_blocks();
   void fill(double time_step);
+  Movers::Rows rows_of(const Block& block, std::size_t part, int first, int count);
   void fill_contact(const Block& block, const Source& source, double time_step);
-  void fill_tree_contact(const Block& block, const Source& source);
   void fill_constraint(const Block& block, const Source& source, double time_step);
   void recall();
   void remember();

@@ -68,7 +68,6 @@ Movers::Place Movers::add_joint(BodyNode& body)
 Movers::Place Movers::add_to_trees(BodyNode& node)
 {
   const int body = trees_.add(node);
-  trees_.need(body, 0);
   const auto tree = static_cast<std::size_t>(trees_.tree(body));
   of_tree_.resize(std::max(of_tree_.size(), tree + 1), none);
   if (of_tree_[tree] == none) {
@@ -82,15 +81,10 @@ Movers::Place Movers::add_to_trees(BodyNode& node)
 void Movers::prepare()
 {
   trees_.prepare();
-  starts_.resize(static_cast<std::size_t>(trees_.size()));
+  tree_rows_.prepare();
   for (auto& mover : movers_)
     if (mover.tree != none)
-      mover.size = 0;
-  for (int body = 0; body < trees_.size(); ++body) {
-    auto& size = at(of_tree_[static_cast<std::size_t>(trees_.tree(body))]).size;
-    starts_[static_cast<std::size_t>(body)] = size;
-    size += trees_.dofs(body);
-  }
+      mover.size = tree_rows_.size(mover.tree);
 }
 
 void Movers::point_row(int mover, const Vector3d& point, const Vector3d& direction, double* J, double* Y) const
@@ -108,49 +102,37 @@ double Movers::speed(int mover, const double* J) const
   return Eigen::Map<const Vector6>(J).dot(at(mover).body->velocity);
 }
 
-void Movers::wrench_row(
-    const std::array<Place, 2>& places, const std::array<Vector6, 2>& wrenches, std::array<double*, 2> J,
-    std::array<double*, 2> Y)
+void Movers::wrench_rows(
+    const std::array<Place, 2>& places, const std::array<TreeRows::Lanes, 2>& wrenches, const std::array<Rows, 2>& rows)
 {
   std::array<int, 2> bodies{none, none};
   for (const std::size_t side : {0, 1}) {
-    const int mover = places[side].mover;
-    if (mover == none)
+    const auto& place = places[side];
+    if (place.mover == none)
       continue;
-    const auto& wrench = wrenches[side];
-    if (!free(mover)) {
-      bodies[side] = places[side].body;
-      trees_.push(bodies[side], wrench);
-      trees_.add_generalised(bodies[side], wrench, starts_, J[side]);
+    if (!free(place.mover)) {
+      bodies[side] = place.body;
+      tree_rows_.push(place.body, wrenches[side]);
       continue;
     }
-    const auto& body = *at(mover).body;
-    const Vector3d force = body.pose.linear() * wrench.tail<3>();
-    const Vector3d moment = body.pose.linear() * wrench.head<3>() - body.offset.cross(force);
-    Eigen::Map<Vector6>(J[side]) << moment, force;
-    Eigen::Map<Vector6>(Y[side]) << body.inverse_inertia * moment, body.inverse_mass * force;
+    const auto& body = *at(place.mover).body;
+    for (int row = 0; row < rows[side].count; ++row) {
+      const Vector3d force = body.pose.linear() * wrenches[side].row(row).tail<3>().transpose();
+      const Vector3d moment = body.pose.linear() * wrenches[side].row(row).head<3>().transpose() - body.offset.cross(force);
+      Eigen::Map<Vector6>(rows[side].J + 6 * row) << moment, force;
+      Eigen::Map<Vector6>(rows[side].Y + 6 * row) << body.inverse_inertia * moment, body.inverse_mass * force;
+    }
   }
-  trees_.solve(bodies[0], bodies[1], 0);
-  for (const std::size_t side : {0, 1})
-    if (bodies[side] != none)
-      answer_of_tree(trees_.tree(bodies[side]), Y[side]);
+  tree_rows_.write(bodies[0], bodies[1], rows);
 }
 
-void Movers::joint_row(Place place, int dof, double* J, double* Y)
+void Movers::joint_rows(Place place, const int* dofs, const Rows& rows)
 {
   if (trees_.dofs(place.body) == 0)
     return;
-  trees_.push_joint(place.body, dof);
-  J[starts_[static_cast<std::size_t>(place.body)] + dof] = 1.0;
-  trees_.solve(place.body, none, 0);
-  answer_of_tree(trees_.tree(place.body), Y);
-}
-
-void Movers::answer_of_tree(int tree, double* Y) const
-{
-  for (int body = trees_.first(tree); body != none; body = trees_.next(body))
-    for (int dof = 0; dof < trees_.dofs(body); ++dof)
-      Y[starts_[static_cast<std::size_t>(body)] + dof] = trees_.joint_velocity_change(body, dof);
+  for (int row = 0; row < rows.count; ++row)
+    tree_rows_.push_joint(place.body, dofs[row], row);
+  tree_rows_.write(place.body, none, {rows});
 }
 
 /// What the change of its velocity is for the joint of a free body.

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "dynamics/free_bodies.hpp"
-#include "dynamics/tree_impulses.hpp"
+#include "dynamics/tree_rows.hpp"
 
 namespace pydart2 {
 
 /// What impulses move: rigid bodies that are free and alone, and trees of articulated bodies. A free body's velocity is
-/// that of the world at its centre of mass, angular before linear, and needs no tree; a tree's is that of its joints.
+/// that of the world at its centre of mass, angular before linear, and needs no tree; a tree's is that of its joints on what is held
+/// (TreeRows).
 class Movers
 {
 public:
@@ -40,6 +41,9 @@ public:
   int size() const { return static_cast<int>(movers_.size()); }
   int dofs(int mover) const { return at(mover).size; }
 
+  /// How many columns the rows of a body have: they move no joint whose number is higher than its own.
+  int columns(const Place& place) const { return free(place.mover) ? 6 : tree_rows_.end(place.body); }
+
   /// Where a mover's velocity begins in that of all.
   int start(int mover) const { return at(mover).start; }
   void set_start(int mover, int start) { at(mover).start = start; }
@@ -53,11 +57,15 @@ public:
   /// Velocity of a free body along it.
   double speed(int mover, const double* J) const;
 
-  /// The same of wrenches on one or two bodies, in their frames: a row of the two movers, or of the one that both are of.
-  void wrench_row(const std::array<Place, 2>& places, const std::array<Vector6, 2>& wrenches, std::array<double*, 2> J, std::array<double*, 2> Y);
+  /// Where rows are written, one after the other: of two movers, or of the one that both bodies are of.
+  using Rows = TreeRows::Rows;
 
-  /// Of a unit impulse at a joint's degree of freedom.
-  void joint_row(Place place, int dof, double* J, double* Y);
+  /// The same of wrenches on one or two bodies, in their frames.
+  void wrench_rows(
+      const std::array<Place, 2>& places, const std::array<TreeRows::Lanes, 2>& wrenches, const std::array<Rows, 2>& rows);
+
+  /// Of unit impulses at a joint's degrees of freedom.
+  void joint_rows(Place place, const int* dofs, const Rows& rows);
 
   /// Takes from the change `velocities` what would leave free bodies that impulses move with a speed of no more than
   /// `noise`, and as much from those that are slower than `most`.
@@ -72,7 +80,7 @@ public:
 
   /// Calls `give(joint, change of its velocities)` for each joint of what moves, but for the bodies in the array.
   template <class Give>
-  void each_joint(const Eigen::VectorXd& velocities, const Give& give) const;
+  void each_joint(const Eigen::VectorXd& velocities, const Give& give);
 
 private:
   struct Mover
@@ -87,7 +95,6 @@ private:
   const Mover& at(int mover) const { return movers_[static_cast<std::size_t>(mover)]; }
   Place add_to_trees(dart::dynamics::BodyNode& body);
   Vector6 joint_change(const Mover& mover, const Eigen::VectorXd& velocities) const;
-  void answer_of_tree(int tree, double* Y) const;
 
   std::vector<Mover> movers_;
   FreeBodies* free_ = nullptr;
@@ -95,27 +102,20 @@ private:
   std::deque<FreeBodies::Body> read_; ///< Other free bodies.
   std::unordered_map<const dart::dynamics::BodyNode*, Place> places_;
   TreeImpulses trees_;
+  TreeRows tree_rows_{trees_};
   std::vector<int> of_tree_; ///< Its mover.
-  std::vector<int> starts_; ///< Of each body's joint in its tree's velocity.
 };
 
 template <class Give>
-void Movers::each_joint(const Eigen::VectorXd& velocities, const Give& give) const
+void Movers::each_joint(const Eigen::VectorXd& velocities, const Give& give)
 {
   for (const auto& mover : movers_) {
-    if (velocities.segment(mover.start, mover.size).isZero(0.0))
+    if (mover.in_array || velocities.segment(mover.start, mover.size).isZero(0.0))
       continue;
-    if (mover.in_array)
-      continue;
-    if (mover.tree == none) {
+    if (mover.tree == none)
       give(*static_cast<dart::dynamics::Joint*>(mover.body->joint), Eigen::VectorXd(joint_change(mover, velocities)));
-      continue;
-    }
-    for (int body = trees_.first(mover.tree); body != none; body = trees_.next(body))
-      if (const int dofs = trees_.dofs(body); dofs > 0)
-        give(
-            *trees_.node(body).getParentJoint(),
-            Eigen::VectorXd(velocities.segment(mover.start + starts_[static_cast<std::size_t>(body)], dofs)));
+    else
+      tree_rows_.joint_changes(mover.tree, velocities.data() + mover.start, give);
   }
 }
 

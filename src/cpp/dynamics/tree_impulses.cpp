@@ -113,28 +113,7 @@ double TreeImpulses::joint_velocity_change(int body, int dof) const
 
 int TreeImpulses::dofs(int body) const
 {
-  return std::visit(
-      [](const auto& joint) {
-        if constexpr (std::is_same_v<decltype(joint), const FixedJoint&>)
-          return 0;
-        else
-          return static_cast<int>(joint.c.size());
-      },
-      bodies_[body].joint);
-}
-
-void TreeImpulses::add_generalised(int number, Vector6 wrench, const std::vector<int>& starts, double* out) const
-{
-  for (; number != none; number = bodies_[number].parent) {
-    const auto& body = bodies_[number];
-    std::visit(
-        [&](const auto& joint) {
-          if constexpr (!std::is_same_v<decltype(joint), const FixedJoint&>)
-            Eigen::Map<std::decay_t<decltype(joint.c)>>(out + starts[number]) += joint.J.transpose() * wrench;
-        },
-        body.joint);
-    wrench = to_parent(body.T, wrench);
-  }
+  return std::visit([](const auto& joint) { return std::decay_t<decltype(joint)>::dofs; }, bodies_[body].joint);
 }
 
 void TreeImpulses::solve(int body1, int body2, int row)

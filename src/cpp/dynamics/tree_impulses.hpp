@@ -79,15 +79,22 @@ public:
   /// How many degrees of freedom impulses move at a body's joint.
   int dofs(int body) const;
 
-  /// Adds what a wrench on a body, in its frame, is as a generalised impulse at the joints from the body to the root: at
-  /// out[starts[b]] that of the joint of body b.
-  void add_generalised(int body, Vector6 wrench, const std::vector<int>& starts, double* out) const;
+  int parent(int body) const { return bodies_[body].parent; }
+  const Eigen::Isometry3d& transform(int body) const { return bodies_[body].T; }
+
+  /// Calls `act` with the terms of a body's joint: of a MovingJoint, or of one that impulses do not move.
+  template <class Act>
+  void visit_joint(int body, const Act& act) const
+  {
+    std::visit(act, bodies_[body].joint);
+  }
 
 private:
   /// A joint with N degrees of freedom that impulses move.
   template <int N>
   struct MovingJoint
   {
+    static constexpr int dofs = N;
     using Vector = Eigen::Matrix<double, N, 1>;
     using Jacobian = Eigen::Matrix<double, 6, N>;
     using Projection = typename decltype(Jacobian().transpose() * Eigen::Matrix<double, 6, 6>())::PlainObject;
@@ -100,7 +107,9 @@ private:
     Vector change = Vector::Zero(); ///< Velocity change dq.
   };
   struct FixedJoint
-  {};
+  {
+    static constexpr int dofs = 0;
+  };
   using JointTerms = std::variant<FixedJoint, MovingJoint<1>, MovingJoint<2>, MovingJoint<3>, MovingJoint<6>>;
 
   struct Body
