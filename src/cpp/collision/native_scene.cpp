@@ -145,10 +145,11 @@ void Scene::look_at_motion(Item& item)
   if (time_step_ == 0.0 || item.body == nullptr || !item.bounded)
     return;
   const bool known = item.placed.pose != nullptr;
-  const Vector angular = known ? *item.placed.angular : item.body->getAngularVelocity();
-  const Vector linear = known ? *item.placed.linear : item.body->getLinearVelocity();
-  const Vector& origin = known ? item.placed.pose->translation() : item.body->getWorldTransform().translation();
-  item.motion = time_step_ * (linear + angular.cross(item.pose.translation() - origin));
+  const Pose& body = known ? *item.placed.pose : item.body->getWorldTransform();
+  const auto of_body = [&](auto part) -> Vector { return body.linear() * part; };
+  const Vector angular = known ? *item.placed.angular : of_body(item.body->getSpatialVelocity().head<3>());
+  const Vector linear = known ? *item.placed.linear : of_body(item.body->getSpatialVelocity().tail<3>());
+  item.motion = time_step_ * (linear + angular.cross(item.pose.translation() - body.translation()));
   const bool ball = item.object->geometry().form == Form::sphere;
   item.turning = ball ? 0.0 : time_step_ * angular.norm() * (item.bounds.high - item.bounds.low).norm();
 }

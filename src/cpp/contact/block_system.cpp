@@ -289,7 +289,8 @@ void Sweeps::project(const V& view, Vector& x) const
   }
   // An ellipse where the coefficients differ: not the nearest point of it, but that along the ray, which is on the same
   // side and has the same fixed points for a circle.
-  if (const double out = std::hypot(x[1] / first, x[2] / second); out > 1.0) {
+  const double along = x[1] / first, across = x[2] / second;
+  if (const double out = std::sqrt(along * along + across * across); out > 1.0) {
     x[1] /= out;
     x[2] /= out;
   }

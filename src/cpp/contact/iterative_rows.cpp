@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "contact/iterative_solver.hpp"
+#include "engine/tree_members.hpp"
 
 // The rows of contacts and constraints, as the sweeps take them, and what their impulses do to bodies.
 
@@ -231,8 +232,8 @@ void IterativeSolver::apply_wrench(Movers::Place place, BodyNode& body, const Ei
 {
   if (movers_.free(place.mover))
     return;
-  body.setConstraintImpulse(body.getConstraintImpulse() + wrench);
-  body.getSkeleton()->setImpulseApplied(true);
+  body.*engine::BodyMembers::constraint_impulse += wrench;
+  movers_.skeleton(place).setImpulseApplied(true);
 }
 
 } // namespace pydart2

@@ -2,6 +2,7 @@
 
 #include <dart/collision/CollisionResult.hpp>
 #include <dart/constraint/ConstraintBase.hpp>
+#include <dart/constraint/SmartPointer.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 
 #include "contact/block_system.hpp"

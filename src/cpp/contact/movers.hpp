@@ -3,6 +3,7 @@
 #include <array>
 #include <dart/dynamics/FreeJoint.hpp>
 #include <deque>
+#include <memory_resource>
 #include <unordered_map>
 #include <vector>
 
@@ -49,6 +50,9 @@ public:
   void set_start(int mover, int start) { at(mover).start = start; }
 
   bool free(int mover) const { return at(mover).tree == none; }
+
+  /// Of a body in a tree.
+  dart::dynamics::Skeleton& skeleton(const Place& place) const { return trees_.skeleton(place.body); }
 
   /// Of an impulse at a point of a free body, in the world's frame: what it is at the centre of mass, and what velocity
   /// it gives.
@@ -100,7 +104,8 @@ private:
   FreeBodies* free_ = nullptr;
   std::vector<int> of_free_; ///< The mover of each body in the array.
   std::deque<FreeBodies::Body> read_; ///< Other free bodies.
-  std::unordered_map<const dart::dynamics::BodyNode*, Place> places_;
+  std::pmr::unsynchronized_pool_resource pool_; ///< From one step to the next.
+  std::pmr::unordered_map<const dart::dynamics::BodyNode*, Place> places_{&pool_};
   TreeImpulses trees_;
   TreeRows tree_rows_{trees_};
   std::vector<int> of_tree_; ///< Its mover.

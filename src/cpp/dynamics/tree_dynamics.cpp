@@ -21,6 +21,16 @@ namespace pydart2 {
 
 using namespace tree;
 
+namespace {
+
+/// Once for all kinds of joints, so that what a step runs through stays in the processor's cache of instructions.
+[[gnu::noinline]] void add_inertia_to_parent(const Eigen::Isometry3d& T, const Matrix6& inertia, Matrix6& sum)
+{
+  sum += spatial::inertia_to_parent(T, inertia);
+}
+
+} // namespace
+
 std::unique_ptr<TreeDynamics> TreeDynamics::of(Skeleton& skeleton)
 {
   if (skeleton.getNumSoftBodyNodes() > 0)
@@ -203,14 +213,22 @@ void TreeDynamics::accelerate(bool share)
 }
 
 /// Of the joint.
-void TreeDynamics::update_transform(Link& link)
+[[gnu::flatten]] void TreeDynamics::update_transform(Link& link)
 {
   Joint& joint = *link.joint;
-  if (joint.*JointOf::transform_dirty && link.axis != nullptr) {
-    const auto& q = static_cast<RevoluteJoint&>(joint).getPositionsStatic();
-    *link.transform = joint.getTransformFromParentBodyNode() * spatial::turn(*link.axis * q)
-                      * joint.getTransformFromChildBodyNode().inverse();
+  const auto put = [&](const Eigen::Isometry3d& moved) {
+    *link.transform = joint.getTransformFromParentBodyNode() * moved * joint.getTransformFromChildBodyNode().inverse();
     joint.*JointOf::transform_dirty = shared_ != nullptr;
+  };
+  if (joint.*JointOf::transform_dirty && link.axis != nullptr) {
+    put(spatial::turn(*link.axis * static_cast<RevoluteJoint&>(joint).getPositionsStatic()));
+    return;
+  }
+  if (joint.*JointOf::transform_dirty && link.kind == Kind::so3) {
+    auto& ball = static_cast<BallJoint&>(joint);
+    Eigen::Isometry3d& turned = ball.*engine::BallJointMembers::turned;
+    turned.linear() = spatial::rotation(ball.getPositionsStatic());
+    put(turned);
     return;
   }
   const auto& T = joint.getRelativeTransform();
@@ -266,11 +284,11 @@ void TreeDynamics::update_inertias()
 }
 
 /// Adds what a body sees of its child's articulated inertia through the child's joint.
-[[gnu::flatten]] void TreeDynamics::add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum)
+[[gnu::flatten, gnu::noinline]] void TreeDynamics::add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum)
 {
   const Eigen::Isometry3d& T = *child.transform;
   if (child.kinematic || child.kind == Kind::none) {
-    sum += spatial::inertia_to_parent(T, inertia);
+    add_inertia_to_parent(T, inertia, sum);
     return;
   }
   visit(child, [&](auto& joint) {
@@ -279,7 +297,7 @@ void TreeDynamics::update_inertias()
     const typename Space::JacobianMatrix IJ = inertia * jacobian(joint, child.constant);
     Matrix6 left = inertia;
     left.noalias() -= IJ * inverse * IJ.transpose();
-    sum += spatial::inertia_to_parent(T, left);
+    add_inertia_to_parent(T, left, sum);
   });
 }
 

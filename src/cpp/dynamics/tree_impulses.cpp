@@ -5,6 +5,7 @@
 
 #include "dynamics/spatial_inline.hpp"
 #include "engine/engine_access.hpp"
+#include "engine/tree_members.hpp"
 
 namespace pydart2 {
 
@@ -51,6 +52,8 @@ int TreeImpulses::add(BodyNode& node)
 void TreeImpulses::prepare()
 {
   for (auto& body : bodies_) {
+    if (body.parent == none)
+      body.node->getArticulatedInertia(); // brings those of the whole tree up to date
     body.T = body.node->getParentJoint()->getRelativeTransform();
     read_joint(body);
   }
@@ -80,8 +83,8 @@ void TreeImpulses::read_joint(Body& body)
 template <class Space>
 void TreeImpulses::read_moving_joint(Body& body)
 {
-  const auto& joint = dynamic_cast<const GenericJoint<Space>&>(*body.node->getParentJoint());
-  const auto& I = body.node->getArticulatedInertia();
+  const auto& joint = static_cast<const GenericJoint<Space>&>(*body.node->getParentJoint());
+  const auto& I = body.node->*engine::BodyMembers::inertia;
   auto& terms = body.joint.emplace<MovingJoint<static_cast<int>(Space::NumDofs)>>();
   terms.J = joint.getRelativeJacobianStatic();
   terms.P = engine::InverseProjectedInertia<Space>::of(joint);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/Skeleton.hpp>
+#include <memory_resource>
 #include <unordered_map>
 #include <variant>
 #include <vector>
@@ -138,7 +139,8 @@ private:
 
   std::vector<Body> bodies_;
   std::vector<Tree> trees_;
-  std::unordered_map<const dart::dynamics::BodyNode*, int> numbers_;
+  std::pmr::unsynchronized_pool_resource pool_; ///< From one step to the next.
+  std::pmr::unordered_map<const dart::dynamics::BodyNode*, int> numbers_{&pool_};
 };
 
 } // namespace pydart2

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/GenericJoint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
@@ -62,6 +63,11 @@ struct JointMembers : dart::dynamics::Joint
   static constexpr auto integrate_positions = &JointMembers::integratePositions;
   static constexpr auto integrate_velocities = &JointMembers::integrateVelocities;
   static constexpr auto add_impulse_terms = &JointMembers::updateConstrainedTerms;
+};
+
+struct BallJointMembers : dart::dynamics::BallJoint
+{
+  static constexpr auto turned = &BallJointMembers::mR;
 };
 
 template <class Space>
