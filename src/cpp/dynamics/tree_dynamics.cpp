@@ -14,6 +14,7 @@
 #include <dart/dynamics/WeldJoint.hpp>
 #include <typeinfo>
 
+#include "dynamics/inverse_inertia.hpp"
 #include "dynamics/spatial_inline.hpp"
 #include "dynamics/tree_joints.hpp"
 
@@ -270,7 +271,7 @@ void TreeDynamics::update_inertias()
     const auto& terms = properties(joint);
     const bool own_terms = (terms.mDampingCoefficients.array() != 0.0).any() || (terms.mSpringStiffnesses.array() != 0.0).any();
     typename Space::Matrix projected = J.transpose() * plain * J;
-    joint.*Generic<Space>::inverse_inertia = dart::math::inverse<Space>(projected);
+    joint.*Generic<Space>::inverse_inertia = inverse_inertia<Space>(projected);
     if (!link.implicit && !own_terms) {
       joint.*Generic<Space>::inverse_inertia_implicit = joint.*Generic<Space>::inverse_inertia;
       return;
@@ -278,7 +279,7 @@ void TreeDynamics::update_inertias()
     if (link.implicit)
       projected = J.transpose() * implicit * J;
     projected += (dt * terms.mDampingCoefficients + dt * dt * terms.mSpringStiffnesses).asDiagonal();
-    joint.*Generic<Space>::inverse_inertia_implicit = dart::math::inverse<Space>(projected);
+    joint.*Generic<Space>::inverse_inertia_implicit = inverse_inertia<Space>(projected);
     link.implicit = true;
   });
 }
