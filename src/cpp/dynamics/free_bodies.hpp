@@ -45,7 +45,7 @@ public:
     Vector3 angular_before, linear_before;
     Vector6 correction;      ///< A velocity of the centre of mass for the integration of positions alone.
     Vector6 command;         ///< Of the joint, in the body's frame.
-    bool pushed;             ///< By a force that is cleared after the step.
+    bool pushed = false;     ///< By a force that is cleared after the step.
 
     /// The one that all of its mass would have with the same kinetic energy, of a velocity as `velocity` is.
     double speed(const Vector6& of) const
