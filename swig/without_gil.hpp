@@ -39,7 +39,7 @@ private:
   /// When the interpreter has ended it ends the thread by unwinding it, which may not pass a destructor nor our handlers:
   /// the thread waits for the end of the process instead, as all do from Python 3.14 on. An unwinding has no object that
   /// UndefinedBehaviorSanitizer could see bound to the reference.
-  [[gnu::no_sanitize("null")]] void take_back()
+  [[gnu::no_sanitize("undefined")]] void take_back()
   {
     try {
       PyEval_RestoreThread(state_);
