@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 import re
 import subprocess
@@ -229,7 +230,18 @@ def test_what_is_refused() -> None:
         Batch(world, 2)
 
 
-@pytest.mark.parametrize("limit", ["", "import resource; resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))"])
+@pytest.mark.parametrize(
+    "limit",
+    [
+        "",
+        pytest.param(
+            "import resource; resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))",
+            marks=pytest.mark.skipif(
+                "ASAN_OPTIONS" in os.environ, reason="AddressSanitizer wants terabytes of addresses"
+            ),
+        ),
+    ],
+)
 def test_more_worlds_than_memory_holds(limit: str) -> None:
     """It says so while there is room, where the system would end the process."""
     code = f"""
