@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -134,6 +133,8 @@ def solve_each(
     **options: Any,
 ) -> IKResults:
     """See Batch.inverse_kinematics(); arrays have the same shapes and units, q in rad or m."""
+    from concurrent.futures import ThreadPoolExecutor  # a twentieth of the package's import
+
     count = len(skeletons)
     each = {body: _for_each(target, count) for body, target in targets.items()}
     centres = None if com is None else _rows(com, count, 1)

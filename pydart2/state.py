@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +18,8 @@ def model_hash(handle: WorldHandle) -> str:
     """A digest of all that is not state: names, trees, masses, limits, shapes, gravity, detector and so on."""
     if known := handle.known_model_digest():
         return known
+    import hashlib  # a twentieth of the package's import
+
     digest = hashlib.sha256(handle.model_numbers().tobytes())
     digest.update("\0".join(handle.model_texts()).encode("utf-8", "surrogateescape"))
     handle.remember_model_digest(digest.hexdigest())
