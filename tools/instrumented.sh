@@ -32,5 +32,6 @@ if [ "$kind" = sanitize ]; then
   export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
 elif [ "$kind" = threads ]; then
   export LD_PRELOAD="$(gcc -print-file-name=libtsan.so) $(gcc -print-file-name=libstdc++.so.6)"
+  export TSAN_OPTIONS="suppressions=$folder/tests/crash/threads.supp:${TSAN_OPTIONS:-}"
 fi
 exec "$@"
