@@ -40,7 +40,7 @@ MAX_GROWTH = 20.0  # MB of memory in the second half of the events
 class Monkey:
     """Plays with a window."""
 
-    def __init__(self, model: str, seed: int) -> None:
+    def __init__(self, model: str, seed: int, folder: str) -> None:
         self.random = random.Random(seed)
         name, step = MODELS[model]
         world = pydart2.World(step)
@@ -53,7 +53,7 @@ class Monkey:
         world.recording.limit_bytes = 2_000_000
         self.world = world
         self.window = PyQt5Window(world, model)
-        self.window.set_capture_dir(Path(tempfile.mkdtemp()) / "captures")
+        self.window.set_capture_dir(Path(folder) / "captures")
         self.window.set_capture_rate(200)
         panel = SidePanel(120)
         panel.add_push_button("button", lambda checked: None)
@@ -194,11 +194,12 @@ def main(times: int, model: str, seed: int = 1) -> None:
 
     raised: list[BaseException] = []
     application("random events")
-    monkey = Monkey(model, seed)
     before, sys.excepthook = sys.excepthook, lambda kind, value, trace: raised.append(value)
     try:
-        done = monkey.play(times)
-        monkey.window.close()
+        with tempfile.TemporaryDirectory() as folder:
+            monkey = Monkey(model, seed, folder)
+            done = monkey.play(times)
+            monkey.window.close()
     finally:
         sys.excepthook = before
     assert not raised, raised

@@ -10,6 +10,7 @@ import itertools
 import os
 import subprocess
 import sys
+import tempfile
 import textwrap
 import weakref
 from pathlib import Path
@@ -23,7 +24,7 @@ from pydart2 import DestroyedError
 TESTS = Path(__file__).resolve().parent.parent
 
 SETUP = """
-import gc, itertools, os, sys, tempfile
+import gc, itertools, os, sys
 from pathlib import Path
 from unittest import mock
 import numpy as np
@@ -32,7 +33,7 @@ import pydart2
 from pydart2 import DestroyedError, PydartError
 from physics.models import creature, arm, floor, make_world, pendulum
 
-folder = Path(tempfile.mkdtemp())
+folder = Path({folder!r})
 
 def new(*texts):
     return make_world(folder, *(texts or (creature(), arm())), recording=True)
@@ -59,14 +60,15 @@ def parts(skel):
 
 
 def run(code: str, **environment: str) -> str:
-    script = SETUP.format(tests=str(TESTS)) + textwrap.dedent(code)
-    done = subprocess.run(
-        [sys.executable, "-X", "faulthandler", "-c", script],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        env=os.environ | environment,
-    )
+    with tempfile.TemporaryDirectory() as folder:
+        script = SETUP.format(tests=str(TESTS), folder=folder) + textwrap.dedent(code)
+        done = subprocess.run(
+            [sys.executable, "-X", "faulthandler", "-c", script],
+            capture_output=True,
+            text=True,
+            timeout=120,
+            env=os.environ | environment,
+        )
     assert done.returncode == 0, f"exit code {done.returncode}\n{done.stderr[-3000:]}"
     return done.stdout
 
