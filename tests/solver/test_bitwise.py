@@ -71,6 +71,14 @@ def test_bodies_at_rest_on_each_other() -> None:
     assert min(scene.contacts for scene in outcomes if scene.variation == "pile") > 1_000
 
 
+def test_numbers_that_grow_until_they_are_nan() -> None:
+    """Redundant constraints throw a chain apart; the engine ends the process in the step after its first NaN."""
+    file = next(file for file in models(".skel") if file.name == "chain.skel" and "data" in file.parts)
+    outcomes = compare([file], 1000, [[(detector, "joined") for detector in DETECTORS]])
+    assert {scene.result for scene in outcomes} == {"engine"}
+    assert min(scene.steps for scene in outcomes) > 100
+
+
 def test_complementarity_problems() -> None:
     """Random ones, also those that the engine's solver gives up."""
     outcomes = compare_lcp(10_000)
