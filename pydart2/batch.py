@@ -86,6 +86,7 @@ class Batch:
         How many threads; default: as many as there are processors. The ODE detector allows only one.
     skeleton
         Index of the skeleton that `q`, `dq`, `tau`, names of bodies and dofs, and actions are of; default: the last.
+        IndexError if the world has no such skeleton.
 
     Attributes
     ----------
@@ -109,7 +110,10 @@ class Batch:
                 raise ValueError("a batch runs no controllers: set them to None and give forces with batch.tau")
             world.disable_recording()
             self._handle.add(world._handle)
-        self._index = range(len(worlds[0].skeletons))[skeleton]
+        count = len(worlds[0].skeletons)
+        if not -count <= skeleton < count:
+            raise IndexError(f"a batch needs the index of one of the world's {count} skeletons, got {skeleton}")
+        self._index = skeleton % count
         self._tau = np.zeros((len(worlds), self.skeleton.ndofs))
 
     @property

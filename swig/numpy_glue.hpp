@@ -206,20 +206,34 @@ inline PyObject* to_list(const std::vector<std::string>& texts)
   return list;
 }
 
+/// A str, as std_string.i and to_list() make it: bytes that are no UTF-8 come back as they were. False with no error set.
+inline bool decode(PyObject* object, std::string& text)
+{
+  PyObject* bytes = PyUnicode_Check(object) ? PyUnicode_AsEncodedString(object, "utf-8", "surrogateescape") : nullptr;
+  if (bytes != nullptr)
+    text.assign(PyBytes_AS_STRING(bytes), static_cast<std::size_t>(PyBytes_GET_SIZE(bytes)));
+  Py_XDECREF(bytes);
+  PyErr_Clear();
+  return bytes != nullptr;
+}
+
+/// False with TypeError set.
+inline bool read_text(PyObject* object, const char* what, std::string& text)
+{
+  const bool fine = decode(object, text);
+  if (!fine)
+    PyErr_Format(PyExc_TypeError, "%s must be a string, got %.200R", what, object);
+  return fine;
+}
+
 /// A list of str, as to_list() makes it. False with an error set.
 inline bool read_list(PyObject* object, const char* what, std::vector<std::string>& texts)
 {
   PyObject* list = PySequence_Fast(object, "");
+  const Py_ssize_t size = list == nullptr ? 0 : PySequence_Fast_GET_SIZE(list);
   bool fine = list != nullptr;
-  for (Py_ssize_t i = 0; fine && i < PySequence_Fast_GET_SIZE(list); ++i) {
-    PyObject* bytes = PyUnicode_Check(PySequence_Fast_GET_ITEM(list, i))
-                          ? PyUnicode_AsEncodedString(PySequence_Fast_GET_ITEM(list, i), "utf-8", "surrogateescape")
-                          : nullptr;
-    fine = bytes != nullptr;
-    if (fine)
-      texts.emplace_back(PyBytes_AS_STRING(bytes), static_cast<std::size_t>(PyBytes_GET_SIZE(bytes)));
-    Py_XDECREF(bytes);
-  }
+  for (Py_ssize_t i = 0; fine && i < size; ++i)
+    fine = decode(PySequence_Fast_GET_ITEM(list, i), texts.emplace_back());
   Py_XDECREF(list);
   if (!fine)
     PyErr_Format(PyExc_TypeError, "%s needs a list of str, got %.200R", what, object);

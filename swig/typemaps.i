@@ -62,6 +62,11 @@ class TYPE;
 %feature("novaluewrapper") pydart2::Vector6d;
 %typemap(out) pydart2::Vector6d "$result = pydart2::python::to_numpy($1);"
 
+%typemap(in) const std::string& (std::string text) {
+  if (!pydart2::python::read_text($input, "$1_name", text)) SWIG_fail;
+  $1 = &text;
+}
+%typemap(freearg) const std::string& "";
 %typemap(in) const std::vector<std::string>& (std::vector<std::string> texts) {
   if (!pydart2::python::read_list($input, "$1_name", texts)) SWIG_fail;
   $1 = &texts;

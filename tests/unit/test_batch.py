@@ -203,8 +203,10 @@ def test_what_is_refused() -> None:
         Batch(world, 0)
     with pytest.raises(ValueError, match="a batch needs one thread or more, got -1"):
         Batch(world, 1, threads=-1)
-    with pytest.raises(IndexError):
+    with pytest.raises(IndexError, match="index of one of the world's 2 skeletons, got 7"):
         Batch(world, 1, skeleton=7)
+    with pytest.raises(IndexError, match="index of one of the world's 0 skeletons, got -1"):
+        Batch(pydart2.World(0.001), 1)
     batch = Batch(world, 2)
     with pytest.raises(ValueError, match=rf"actions need shape \(2, T, {ndofs}\) or \(T, {ndofs}\), got \(2, 5, 1\)"):
         batch.rollout(None, np.zeros((2, 5, 1)))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import copy
+import os
 import pickle
+import re
 import subprocess
 import sys
 import textwrap
@@ -333,6 +335,23 @@ def test_limits_may_be_infinite_but_not_nan(skel: pydart2.Skeleton) -> None:
             setter(-1)
     with pytest.raises(TypeError, match="must be a number"):
         dof.set_position("1")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("bad", [None, 3, b"box", ["box"]])
+def test_a_name_is_a_string(world: pydart2.World, skel: pydart2.Skeleton, bad: Any) -> None:
+    setters = [world.set_dynamics, world.set_integrator, world.set_constraint_solver, skel.joints[1].set_name]
+    for call in (*setters, world.add_empty_skeleton, skel.add_body):
+        with pytest.raises(TypeError, match=f"must be a string, got {re.escape(repr(bad))}"):
+            call(bad)
+    assert (world.num_skeletons(), skel.num_bodynodes(), skel.joints[1].name) == (2, 6, "thigh_joint")
+
+
+def test_names_that_are_no_utf8_come_back(skel: pydart2.Skeleton) -> None:
+    """As os.fsdecode() makes them of the bytes in a file of the past."""
+    name = os.fsdecode(b"caf\xe9")
+    skel.joints[1].set_name(name)
+    assert skel.joints[1].name == name
+    assert skel.joint(name) == skel.joints[1]
 
 
 @pytest.mark.parametrize("flag", [True, False, 1, 0, np.True_, np.False_, np.int64(1)])
