@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2._native import BatchHandle
+from pydart2.given import numbers
 from pydart2.inverse_kinematics import IKResults, Target, solve_each
 from pydart2.memory import available_bytes, resident_bytes
 from pydart2.skel_vector import DofArray
@@ -188,9 +189,9 @@ class Batch:
         """
         self.reset()
         if initial_states is not None:
-            self.x = np.broadcast_to(np.asarray(initial_states, dtype=float), self.x.shape)
+            self.x = _rows(initial_states, self.x.shape, "states")
         n, ndofs = len(self), self.skeleton.ndofs
-        forces = np.asarray(actions, dtype=float)
+        forces = numbers(actions, "actions")
         if forces.ndim not in (2, 3) or forces.shape[-1] != ndofs or (forces.ndim == 3 and len(forces) != n):
             raise ValueError(f"actions need shape ({n}, T, {ndofs}) or (T, {ndofs}), got {forces.shape}")
         times = forces.shape[-2]
@@ -237,7 +238,7 @@ class Batch:
 
     @q.setter
     def q(self, q: ArrayLike | Mapping[str, ArrayLike]) -> None:
-        self._handle.set_positions(self._index, self._rows(q, self.q))
+        self._handle.set_positions(self._index, self._rows(q, "positions", self.q))
 
     @property
     def dq(self) -> DofArray:
@@ -246,7 +247,7 @@ class Batch:
 
     @dq.setter
     def dq(self, dq: ArrayLike | Mapping[str, ArrayLike]) -> None:
-        self._handle.set_velocities(self._index, self._rows(dq, self.dq))
+        self._handle.set_velocities(self._index, self._rows(dq, "velocities", self.dq))
 
     @property
     def tau(self) -> DofArray:
@@ -255,18 +256,17 @@ class Batch:
 
     @tau.setter
     def tau(self, tau: ArrayLike | Mapping[str, ArrayLike]) -> None:
-        rows = self._rows(tau, DofArray.of(np.zeros_like(self._tau), self.skeleton.names))
+        rows = self._rows(tau, "forces", DofArray.of(np.zeros_like(self._tau), self.skeleton.names))
         self._handle.set_forces(self._index, rows)
         self._tau = np.array(rows)
 
-    def _rows(self, values: ArrayLike | Mapping[str, ArrayLike], named: DofArray) -> Array:
+    def _rows(self, values: ArrayLike | Mapping[str, ArrayLike], what: str, named: DofArray) -> Array:
         """One row per world, from rows, from one row for all, or from entries by name in the array `named`."""
         if isinstance(values, Mapping):
             for name, column in values.items():
                 named[name] = column
             return np.asarray(named)
-        rows = np.asarray(values, dtype=float)
-        return np.broadcast_to(rows, named.shape) if rows.ndim == 1 else rows
+        return _rows(values, named.shape, what)
 
     # Observations
 
@@ -349,7 +349,7 @@ class Batch:
         return [world.skeletons[self._index] for world in self.worlds]
 
     def _each(self, values: ArrayLike) -> list[tuple[Skeleton, float]]:
-        given = np.asarray(values, dtype=float)
+        given = numbers(values, "values")
         if given.shape not in ((), (len(self),)):
             raise ValueError(f"give one number, or one for each of the {len(self)} worlds; got shape {given.shape}")
         return list(zip(self._skeletons(), np.broadcast_to(given, len(self)).tolist()))
@@ -360,6 +360,14 @@ class Batch:
 
     def __repr__(self) -> str:
         return f"[Batch of {len(self)} worlds: {len(self.failed)} failed, {self.threads} threads]"
+
+
+def _rows(values: ArrayLike, shape: tuple[int, ...], what: str) -> Array:
+    """One row per world, of rows or of one row for all."""
+    rows = numbers(values, what)
+    if rows.shape not in (shape, shape[1:]):
+        raise ValueError(f"{what} needs shape {shape}, or {shape[1:]} for all worlds, got {rows.shape}")
+    return np.broadcast_to(rows, shape)
 
 
 def _rebuild(

@@ -93,25 +93,32 @@ class WorldFilter(WorldPart):
 
 def body_rows(skeletons: list[Skeleton], bodies: Bodies) -> NDArray[np.float64]:
     """Indices of skeleton and body, shape (n, 2), no unit, of what names bodies."""
-    parts = [bodies] if isinstance(bodies, str | BodyNode | Skeleton) else bodies
-    rows = [[body.skeleton.id, body.id] for part in parts for body in _bodies(skeletons, part)]
+    if isinstance(bodies, str | BodyNode | Skeleton) or not isinstance(bodies, Iterable):
+        bodies = [bodies]
+    rows = [[body.skeleton.id, body.id] for part in bodies for body in _bodies(skeletons, part)]
     return np.array(rows, dtype=float).reshape(-1, 2)
 
 
-def _bodies(skeletons: list[Skeleton], part: str | BodyNode | Skeleton) -> list[BodyNode]:
+def part_of(skeletons: list[Skeleton], part: str | BodyNode | Skeleton) -> BodyNode | Skeleton:
+    """A body or skeleton of a world, given as itself or by name."""
     if isinstance(part, str):
         return _named(skeletons, part)
     if not isinstance(part, BodyNode | Skeleton):
         raise TypeError(f"bodies are given as bodies, skeletons or their names, got {part!r}")
     if not any(one is (part if isinstance(part, Skeleton) else part.skeleton) for one in skeletons):
         raise ValueError(f"{part!r} is not in this world")
-    return part.bodynodes if isinstance(part, Skeleton) else [part]
+    return part
 
 
-def _named(skeletons: list[Skeleton], name: str) -> list[BodyNode]:
+def _bodies(skeletons: list[Skeleton], part: str | BodyNode | Skeleton) -> list[BodyNode]:
+    found = part_of(skeletons, part)
+    return found.bodynodes if isinstance(found, Skeleton) else [found]
+
+
+def _named(skeletons: list[Skeleton], name: str) -> BodyNode | Skeleton:
     for skel in skeletons:
         if skel.name == name:
-            return skel.bodynodes
+            return skel
     bodies = [body for skel in skeletons for body in skel.bodynodes]
     found = [body for body in bodies if body.name == name]
     if len(found) > 1:
@@ -120,4 +127,4 @@ def _named(skeletons: list[Skeleton], name: str) -> list[BodyNode]:
     if not found:
         names = [skel.name for skel in skeletons] + [body.name for body in bodies]
         raise NameNotFound("skeleton or body", name, "this world", names)
-    return found
+    return found[0]

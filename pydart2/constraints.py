@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.given import number, numbers
+
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
     from pydart2.world import World
@@ -159,7 +161,7 @@ class WeldJointConstraint(Constraint):
 
         It is pulled there. ValueError if there is a second body.
         """
-        self._move(np.asarray(pose, dtype=float))
+        self._move(numbers(pose, "a pose"))
 
 
 class RevoluteJointConstraint(Constraint):
@@ -224,7 +226,7 @@ class DistanceConstraint(Constraint):
     ) -> None:
         super().__init__(body1, body2)
         one, other = _vector(point1, "point1"), _vector(point2, "point2")
-        apart = float(np.linalg.norm(one - other)) if length is None else float(length)
+        apart = float(np.linalg.norm(one - other)) if length is None else number(length, "length")
         if not 0.0 < apart < np.inf:
             raise ValueError(f"the length of a distance constraint is > 0 m, got {apart}")
         self._numbers[:3], self._numbers[6:9], self._numbers[9:] = one, other, (apart, float(rope))
@@ -279,7 +281,7 @@ def _at(point: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _vector(values: ArrayLike, what: str) -> NDArray[np.float64]:
-    vector = np.array(values, dtype=float)
+    vector = np.array(numbers(values, what))
     if vector.shape != (3,):
         raise ValueError(f"{what} has the shape (3,), got {vector.shape}")
     return vector

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.contact import Contact
+from pydart2.given import numbers
 
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
@@ -73,7 +74,7 @@ class Contacts:
 
     def moment(self, about: ArrayLike) -> Array:
         """The sum of the moments about a point of the world, shape (3,), N m."""
-        return np.asarray(np.cross(self.points - np.asarray(about, dtype=float), self.forces).sum(axis=0))
+        return np.asarray(np.cross(self.points - numbers(about, "a point"), self.forces).sum(axis=0))
 
     def centre_of_pressure(self) -> Array | None:
         """Where the forces along the normals have no moment, world frame, shape (3,), m; None without any force.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.given import numbers
 from pydart2.multibody.masses import Masses
 
 if TYPE_CHECKING:
@@ -125,24 +126,24 @@ class Dynamics(Masses):
         inverse = np.asarray(np.linalg.inv(by.ddq))
         return ForwardDynamicsDerivatives(-inverse @ by.q, -inverse @ by.dq, inverse)
 
-    def impulse_response(self, body: BodyNode, impulse: ArrayLike, offset: ArrayLike | None = None) -> Array:
+    def impulse_response(
+        self, body: BodyNode | str | int, impulse: ArrayLike, offset: ArrayLike | None = None
+    ) -> Array:
         """How a blow changes dq: ``Minv J.T impulse``, shape (ndofs,), rad/s or m/s. The state does not change.
 
         Parameters
         ----------
         body
-            A body of this skeleton.
+            A body of this skeleton, its name or index.
         impulse
             Shape (3,), N s, world frame.
         offset
             Where it acts in the body frame, shape (3,), m; default: the body's origin.
         """
-        if body.skeleton is not self:
-            raise ValueError(f"{body!r} is not a body of {self!r}")
-        blow = np.asarray(impulse, dtype=float)
+        blow = numbers(impulse, "an impulse")
         if blow.shape != (3,):
             raise ValueError(f"an impulse has the shape (3,), got {blow.shape}")
-        return np.asarray(np.linalg.solve(self.M, body.linear_jacobian(offset).T @ blow))
+        return np.asarray(np.linalg.solve(self.M, self._own_body(body).linear_jacobian(offset).T @ blow))
 
     def com_jacobian(self) -> Array:
         """Angular and linear Jacobian of the centre of mass, world frame, shape (6, ndofs): rows of 1 and m/rad.
@@ -191,7 +192,7 @@ class Dynamics(Masses):
         return force
 
     def _per_dof(self, values: ArrayLike, what: str) -> Array:
-        vector = np.asarray(values, dtype=float)
+        vector = numbers(values, what)
         if vector.shape != (self.ndofs,):
             raise ValueError(f"{what} have the shape ({self.ndofs},), one number per dof; got {vector.shape}")
         return vector

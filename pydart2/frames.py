@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.given import numbers
+
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
 
@@ -23,7 +25,7 @@ class Frame:
 
     def relative_pose(self, to: Frame | None) -> Array:
         """Pose in another frame, shape (4, 4), m."""
-        return self.T if to is None else np.linalg.inv(to.T) @ self.T
+        return self.T if to is None else np.linalg.inv(_frame(to).T) @ self.T
 
     def relative_velocity(self, to: Frame | None, axes: Frame | None = None) -> Array:
         """Angular (rad/s) and linear (m/s) velocity of the origin as seen from another frame, shape (6,).
@@ -54,7 +56,7 @@ class Frame:
 
 def _rotation(matrix: ArrayLike) -> Array:
     """The matrix, if it is a rotation."""
-    R = np.asarray(matrix, dtype=float)
+    R = numbers(matrix, "a rotation")
     if R.shape != (3, 3) or not np.allclose(R @ R.T, np.eye(3), atol=1e-6) or np.linalg.det(R) < 0.0:
         raise ValueError(f"a rotation is an orthonormal, right-handed matrix of the shape (3, 3), got {matrix!r}")
     return R
@@ -97,7 +99,7 @@ class SimpleFrame(Frame):
 
     @relative.setter
     def relative(self, pose: ArrayLike) -> None:
-        T = np.array(pose, dtype=float)
+        T = np.array(numbers(pose, "a pose"))
         if T.shape != (4, 4) or not np.isfinite(T).all() or (T[3] != (0.0, 0.0, 0.0, 1.0)).any():
             raise ValueError(f"a pose is a finite matrix of the shape (4, 4) whose last row is 0 0 0 1, got {pose!r}")
         _rotation(T[:3, :3])
@@ -112,12 +114,18 @@ class SimpleFrame(Frame):
         return f"[SimpleFrame: in {'the world' if self.parent is None else self.parent!r}]"
 
 
+def _frame(given: Frame) -> Frame:
+    if not isinstance(given, Frame):
+        raise TypeError(f"a frame is a body, a SimpleFrame, or None for the world, got {given!r}")
+    return given
+
+
 def _body(frame: Frame | None) -> BodyNode | None:
     """The body that carries a frame."""
     if isinstance(frame, SimpleFrame):
         return frame.parent
     # Told by what it has and not by its class, as bodies are made of frames.
-    return cast("BodyNode", frame) if hasattr(frame, "skeleton") else None
+    return cast("BodyNode", frame) if frame is not None and hasattr(_frame(frame), "skeleton") else None
 
 
 def _spatial(frame: Frame, n: int | None) -> Array:
@@ -142,5 +150,5 @@ def _turned(rows: Array, axes: Frame | None) -> Array:
     """Angular and linear rows from the world's axes to those of a frame."""
     if axes is None:
         return rows
-    back = axes.T[:3, :3].T
+    back = _frame(axes).T[:3, :3].T
     return np.concatenate([back @ rows[:3], back @ rows[3:]])

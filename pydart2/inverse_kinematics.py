@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.given import numbers
 from pydart2.skel_vector import DofArray, SkelVector
 
 if TYPE_CHECKING:
     from pydart2._native import InverseKinematicsHandle
     from pydart2.bodynode import BodyNode
     from pydart2.skeleton import Skeleton
+
+_B = TypeVar("_B")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,8 +110,8 @@ def solve(
     problem = skel._handle.inverse_kinematics()
     if not targets and com is None:
         raise ValueError("inverse kinematics needs a target for a body or for the centre of mass")
-    for body, target in targets.items():
-        _add(problem, (skel.body(body) if isinstance(body, str) else _own(skel, body)).id, target)
+    for body, target in _by_body(targets):
+        _add(problem, skel._own_body(body).id, target)
     if com is not None:
         problem.add_target(-1, (0.0, 0.0, 0.0), com, None, 1.0)
     if dofs is not None:
@@ -136,7 +139,7 @@ def solve_each(
     from concurrent.futures import ThreadPoolExecutor  # a twentieth of the package's import
 
     count = len(skeletons)
-    each = {body: _for_each(target, count) for body, target in targets.items()}
+    each = {body: _for_each(target, count) for body, target in _by_body(targets)}
     centres = None if com is None else _rows(com, count, 1)
     starts = None if start is None else _rows(start, count, 1)
 
@@ -159,36 +162,36 @@ def solve_each(
 def _for_each(target: Target | ArrayLike, count: int) -> list[Target | ArrayLike]:
     """A target for each world, of what is one for all or has a row for each."""
     if not isinstance(target, Target):
-        numbers = np.asarray(target, dtype=float)
-        return list(_rows(numbers, count, 2 if numbers.shape[-2:] == (4, 4) else 1))
+        given = numbers(target, "a target")
+        return list(_rows(given, count, 2 if given.shape[-2:] == (4, 4) else 1))
     places = [None] * count if target.position is None else _rows(target.position, count, 1)
     turns = [None] * count if target.rotation is None else _rows(target.rotation, count, 2)
     return [replace(target, position=place, rotation=turn) for place, turn in zip(places, turns)]
 
 
-def _rows(numbers: ArrayLike, count: int, axes: int) -> NDArray[np.float64]:
+def _rows(values: ArrayLike, count: int, axes: int) -> NDArray[np.float64]:
     """One row of so many axes for each world."""
-    given = np.asarray(numbers, dtype=float)
+    given = numbers(values, "what is given for each world")
     if given.ndim not in (axes, axes + 1) or (given.ndim > axes and len(given) != count):
         raise ValueError(f"give what is the same in all {count} worlds, or a row for each; got the shape {given.shape}")
     return np.broadcast_to(given, (count, *given.shape[-axes:]))
 
 
-def _own(skel: Skeleton, body: BodyNode) -> BodyNode:
-    if body.skeleton is not skel:
-        raise ValueError(f"{body!r} is not a body of {skel!r}")
-    return body
+def _by_body(targets: Mapping[_B, Target | ArrayLike]) -> Iterable[tuple[_B, Target | ArrayLike]]:
+    if not isinstance(targets, Mapping):
+        raise TypeError(f'targets are given by body, as {{"hand": [0.5, 0.0, 1.0]}}, not as {targets!r}')
+    return targets.items()
 
 
 def _add(problem: InverseKinematicsHandle, body: int, target: Target | ArrayLike) -> None:
     if not isinstance(target, Target):
-        numbers = np.asarray(target, dtype=float)
-        if numbers.shape == (4, 4):
-            target = Target(position=numbers[:3, 3], rotation=numbers[:3, :3])
-        elif numbers.shape == (3,):
-            target = Target(position=numbers)
+        given = numbers(target, "a target")
+        if given.shape == (4, 4):
+            target = Target(position=given[:3, 3], rotation=given[:3, :3])
+        elif given.shape == (3,):
+            target = Target(position=given)
         else:
-            raise ValueError(f"a target is a position (3,), a pose (4, 4) or a Target; got the shape {numbers.shape}")
+            raise ValueError(f"a target is a position (3,), a pose (4, 4) or a Target; got the shape {given.shape}")
     if target.position is None and target.rotation is None:
         raise ValueError("a Target needs a position, a rotation or both")
     problem.add_target(body, target.offset, target.position, target.rotation, target.weight)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.given import numbers
 from pydart2.multibody.part import Part
 
 if TYPE_CHECKING:
@@ -102,9 +103,13 @@ class Joint(Part):
             raise ValueError(f"no actuator type {actuator_type!r}; they are Joint.FORCE = 0 to Joint.MIMIC = 6")
         self._handle.set_actuator_type(_ACTUATORS[actuator_type])
 
-    def set_mimic(self, joint: Joint, multiplier: float = 1.0, offset: float = 0.0) -> None:
-        """Follow another joint of the skeleton, ``q = multiplier * q_other + offset``, as actuator type MIMIC."""
-        self._handle.set_mimic(joint._handle, multiplier, offset)
+    def set_mimic(self, joint: Joint | str | int, multiplier: float = 1.0, offset: float = 0.0) -> None:
+        """Follow another joint of the skeleton, ``q = multiplier * q_other + offset``, as actuator type MIMIC.
+
+        It is given as itself, by name or by index.
+        """
+        leader = joint if isinstance(joint, Joint) else self.skeleton.joint(joint)
+        self._handle.set_mimic(leader._handle, multiplier, offset)
 
     def mimic(self) -> tuple[Joint, float, float] | None:
         """The joint that it follows by set_mimic(), the multiplier, and the offset, rad or m; None if there is none."""
@@ -231,6 +236,8 @@ class Joint(Part):
         return self._handle.world_transform_of_child_side()[:3, :3].copy()
 
     def _dof(self, index: int) -> Dof:
+        if not isinstance(index, (int, np.integer)):
+            raise TypeError(f"a dof of a joint is given by its index in the joint, not by {index!r}")
         if not 0 <= index < len(self.dofs):
             raise IndexError(f"joint {self.name!r} has {len(self.dofs)} dofs, so no dof {index}")
         return self.dofs[index]
@@ -350,7 +357,7 @@ class _WithState(Joint):
             dof.set_acceleration(value)
 
     def _per_dof(self, values: ArrayLike) -> NDArray[np.float64]:
-        array = np.asarray(values, dtype=float)
+        array = numbers(values, "what is set")
         if array.shape != (len(self.dofs),):
             raise ValueError(f"joint {self.name!r} has {len(self.dofs)} dofs, got shape {array.shape}")
         return array

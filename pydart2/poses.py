@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.given import numbers
+
 
 def pose(position: ArrayLike, orientation: ArrayLike | None = None) -> NDArray[np.float64]:
     """The transform of a position, shape (3,), m, and an orientation: a quaternion [w, x, y, z], or a (3, 3) matrix.
@@ -12,7 +14,7 @@ def pose(position: ArrayLike, orientation: ArrayLike | None = None) -> NDArray[n
     Raises ValueError for other shapes, what is not finite, a quaternion of length 0 and a matrix that is no rotation.
     """
     transform = np.eye(4)
-    place = np.asarray(position, dtype=float)
+    place = numbers(position, "a position")
     if place.shape != (3,):
         raise ValueError(f"a position has the shape (3,), got {place.shape}")
     if not np.isfinite(place).all():
@@ -25,7 +27,7 @@ def pose(position: ArrayLike, orientation: ArrayLike | None = None) -> NDArray[n
 
 def rotation(orientation: ArrayLike) -> NDArray[np.float64]:
     """The matrix of a quaternion [w, x, y, z] of any length, or of a (3, 3) matrix."""
-    turn = np.asarray(orientation, dtype=float)
+    turn = numbers(orientation, "an orientation")
     if turn.shape == (3, 3):
         if not (np.abs(turn @ turn.T - np.eye(3)) < 1e-6).all() or np.linalg.det(turn) < 0.0:
             raise ValueError(f"a (3, 3) matrix must be a rotation, got {turn.tolist()}")

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydart2._native import QueriesHandle
 from pydart2.collision_filter import Bodies, body_rows
 from pydart2.contact_forces import Contacts
+from pydart2.given import number, numbers
 from pydart2.simulation.part import WorldPart
 
 if TYPE_CHECKING:
@@ -138,11 +139,14 @@ class WorldQueries(WorldPart):
 
         Raises ValueError for a direction of length 0, for what is not finite, and for other shapes.
         """
-        start, along = np.broadcast_arrays(np.asarray(origins, dtype=float), np.asarray(directions, dtype=float))
+        start, along = np.broadcast_arrays(numbers(origins, "origins"), numbers(directions, "directions"))
         if start.ndim not in (1, 2) or start.shape[-1] != 3:
             raise ValueError(f"origins and directions have the shape (3,) or (n, 3), got {start.shape}")
         rows = self._asked().raycast(
-            start.reshape(-1, 3), along.reshape(-1, 3), float(max_distance), body_rows(self.skeletons, ignore)
+            start.reshape(-1, 3),
+            along.reshape(-1, 3),
+            max_distance,
+            body_rows(self.skeletons, ignore),
         )
         return RayHits(*self._found(rows, start.shape[:-1]))
 
@@ -162,10 +166,10 @@ class WorldQueries(WorldPart):
         ignore
             Bodies, skeletons or their names that are not seen, as of exclude_collisions().
         """
-        places = np.asarray(points, dtype=float)
+        places = numbers(points, "points")
         if places.ndim not in (1, 2) or places.shape[-1] != 3:
             raise ValueError(f"points have the shape (3,) or (n, 3), got {places.shape}")
-        rows = self._asked().nearest(places.reshape(-1, 3), float(max_distance), body_rows(self.skeletons, ignore))
+        rows = self._asked().nearest(places.reshape(-1, 3), max_distance, body_rows(self.skeletons, ignore))
         return SurfacePoints(*self._found(rows, places.shape[:-1]))
 
     def distance(self, a: Bodies, b: Bodies, max_distance: float = np.inf) -> Distances:
@@ -185,7 +189,7 @@ class WorldQueries(WorldPart):
         max_distance
             Pairs that are farther apart are not seen, m.
         """
-        rows = self._asked().distances(*self._sides(a, b), float(max_distance), True)
+        rows = self._asked().distances(*self._sides(a, b), max_distance, True)
         if len(rows) == 0:
             rows = np.array([[np.inf, *[np.nan] * 9, *[-1.0] * 6]])
         return self._distances(rows[0])
@@ -195,7 +199,7 @@ class WorldQueries(WorldPart):
 
         The nearest first; else as distance().
         """
-        return self._distances(self._asked().distances(*self._sides(a, b), float(max_distance), False))
+        return self._distances(self._asked().distances(*self._sides(a, b), max_distance, False))
 
     def find_contacts(self, a: Bodies, b: Bodies) -> Contacts:
         """Where two sets of bodies touch, as they stand now: contacts without force, on the bodies of `a`.
@@ -240,7 +244,7 @@ class WorldQueries(WorldPart):
         change
             Of each state and force, rad, m, rad/s, m/s, N m, N.
         """
-        if not 0.0 < change < 1.0:
+        if not 0.0 < number(change, "change") < 1.0:
             raise ValueError(f"a change for differences is a small number > 0, got {change}")
         copy = cast("World", self).clone(exact=False)
         start, skeletons = copy.snapshot(), copy.skeletons

@@ -207,7 +207,10 @@ class Run:
             if skeleton not in names:
                 raise NameNotFound("skeleton", skeleton, repr(self), names)
             return names.index(skeleton)
-        return range(len(names))[skeleton if isinstance(skeleton, (int, np.integer)) else skeleton.id]
+        place = skeleton if isinstance(skeleton, (int, np.integer)) else getattr(skeleton, "id", None)
+        if place is None or not -len(names) <= place < len(names):
+            raise IndexError(f"no skeleton {skeleton!r} in {self!r}: there are {len(names)}")
+        return int(place) % len(names)
 
     def _find(self, dof: str) -> tuple[str, str]:
         """Skeleton and name of a dof."""

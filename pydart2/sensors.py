@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2.bodynode import BodyNode
 from pydart2.frames import Frame, SimpleFrame
+from pydart2.given import numbers
 from pydart2.skeleton import Skeleton
 
 if TYPE_CHECKING:
@@ -130,13 +131,13 @@ class Sensor(Sampled):
 
     def _each(self, values: ArrayLike, what: str) -> Array:
         """A number for each of the sensor's."""
-        numbers = np.asarray(values, dtype=float)
+        given = numbers(values, f"the {what} of a sensor")
         n = len(self._labels)
-        if numbers.shape not in ((), (n,)) or not np.isfinite(numbers).all():
+        if given.shape not in ((), (n,)) or not np.isfinite(given).all():
             raise ValueError(
                 f"the {what} of this sensor is a finite number, or one for each of its {n}; got {values!r}"
             )
-        return np.array(np.broadcast_to(numbers, n))
+        return np.array(np.broadcast_to(given, n))
 
     def measure(self) -> Array:
         """What there is, without rate, noise and bias, shape (n,), in the units of read()."""
@@ -327,7 +328,7 @@ class Lidar(Sensor):
     ) -> None:
         self._body, _ = _place(frame)
         self._frame: Frame = frame
-        self._directions = np.array(directions, dtype=float)
+        self._directions = np.array(numbers(directions, "directions"))
         if self._directions.ndim != 2 or self._directions.shape[1] != 3 or not np.any(self._directions, axis=1).all():
             raise ValueError(f"the directions of a lidar have the shape (n, 3), none of them 0; got {directions!r}")
         self._max_distance = max_distance

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.given import numbers
+
 if TYPE_CHECKING:
     from pydart2.skeleton import Skeleton
 
@@ -39,11 +41,12 @@ def forces(
     external
         Generalized forces that act besides, shape (ndofs,); default: the constraint forces of the last step.
     """
-    stiffness, damping, velocity, acceleration = (np.asarray(x, dtype=float) for x in (Kp, Kd, dq_des, ddq_des))
+    given = (Kp, Kd, dq_des, ddq_des)
+    stiffness, damping, velocity, acceleration = (numbers(x, "gains and desired rates") for x in given)
     damping = np.broadcast_to(damping, (skel.ndofs,))
     dq = np.asarray(skel.dq)
     p = -stiffness * skel.position_differences(skel.q + h * dq, q_des)
     d = -damping * (dq - velocity - h * acceleration)
-    acting = skel.constraint_forces() if external is None else np.asarray(external, dtype=float)
+    acting = skel.constraint_forces() if external is None else numbers(external, "external")
     ddq = np.linalg.solve(skel.M + h * np.diag(damping), -skel.c + p + d + acting)
     return np.asarray(p + d - damping * h * ddq)

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.given import numbers
 from pydart2.multibody.coordinates import Coordinates
 from pydart2.skel_vector import SkelVector
 
@@ -140,7 +141,7 @@ class TargetControl(Coordinates):
         elif isinstance(values, str):
             raise TypeError(f"targets by name are a dict, as {{{values!r}: 0.5}}")
         elif values is not None:
-            whole = np.asarray(values, dtype=float)
+            whole = numbers(values, "targets")
             if whole.shape != vector.shape:
                 raise ValueError(f"expected one number per dof, shape {vector.shape}, got {whole.shape}")
             vector[:] = whole

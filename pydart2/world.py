@@ -15,7 +15,7 @@ from pydart2._native import WorldHandle
 from pydart2.alias import Settable
 from pydart2.assignment import Assignable
 from pydart2.building.worlds import WorldBuilding
-from pydart2.collision_filter import CollisionFilter, WorldFilter
+from pydart2.collision_filter import CollisionFilter, WorldFilter, part_of
 from pydart2.collision_result import CollisionResult
 from pydart2.errors import DestroyedError
 from pydart2.exporting.methods import SavedWorld
@@ -260,9 +260,9 @@ class World(
         """All contacts of the last step as arrays, from the side of the first body of each."""
         return contact_forces.of_world(self)
 
-    def contacts_between(self, a: BodyNode | Skeleton, b: BodyNode | Skeleton) -> contact_forces.Contacts:
-        """The contacts of two bodies or skeletons in the last step as arrays, from the side of `a`."""
-        return contact_forces.between(a, b)
+    def contacts_between(self, a: BodyNode | Skeleton | str, b: BodyNode | Skeleton | str) -> contact_forces.Contacts:
+        """The contacts of two bodies or skeletons, or those of a name, in the last step as arrays, from `a`'s side."""
+        return contact_forces.between(part_of(self.skeletons, a), part_of(self.skeletons, b))
 
     def states(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,), rad, m, rad/s and m/s."""

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from pydart2.building import solids
 from pydart2.errors import nearest
+from pydart2.given import number, numbers
 from pydart2.poses import pose
 from pydart2.shapenode import ShapeNode
 
@@ -149,7 +150,7 @@ class BodyBuilding:
 
     def add_mass(self, mass: float, com: ArrayLike = (0.0, 0.0, 0.0), inertia: ArrayLike | None = None) -> None:
         """Add the mass, kg, of a part with its centre, shape (3,), m, and moment of inertia about it, (3, 3), kg m²."""
-        if inertia is None and mass > 0.0:
+        if inertia is None and number(mass, "mass") > 0.0:
             raise ValueError(
                 f"a mass of {mass} kg needs its inertia, or is given to a shape: body.add_box(size, mass={mass})"
             )
@@ -179,9 +180,7 @@ class BodyBuilding:
 def attach(body: BodyNodeHandle, solid: solids.Solid, options: ShapeOptions) -> int:
     """Add a shape and its mass to a body of the engine; returns the shape's index."""
     transform = pose(options.get("position", (0.0, 0.0, 0.0)), options.get("orientation"))
-    mass = options.get("mass")
-    if mass is None:
-        mass = options.get("density", DENSITY) * solid.volume
+    mass = solid.mass(options.get("mass"), options.get("density", DENSITY))
     index = _new_node(body, solid, options)
     node = body.shapenode(index)
     node.set_relative_transform(transform)
@@ -196,7 +195,9 @@ def paint(node: ShapeNodeHandle, options: ShapeOptions | BodyOptions) -> None:
     """Give a shape of the engine its colour and coefficients, where there are any."""
     if "color" in options:
         rgba = np.ones(4)
-        color = np.asarray(options["color"], dtype=float)
+        color = numbers(options["color"], "a color")
+        if color.shape not in ((3,), (4,)):
+            raise ValueError(f"a color is red, green and blue, and opacity if you like, from 0 to 1, got {color}")
         rgba[: len(color)] = color
         node.set_rgba(rgba)
     if "friction" in options:

@@ -74,7 +74,7 @@ class Branches(SkeletonBuilding):
             skeleton, or dofs have targets or a constraint holds either skeleton.
         """
         branch = self._branch(body)
-        above = None if parent is None else self._parent(parent)
+        above = None if parent is None else self._own_body(parent)
         stays = position is None and orientation is None
         here = (
             branch.world_transform()
@@ -107,7 +107,7 @@ class Branches(SkeletonBuilding):
         ValueError
             As `attach`.
         """
-        branch = self._parent(body)
+        branch = self._own_body(body)
         skel, world = cast("Skeleton", self), self.world
         with world._all_or_nothing():
             own = world.add_skeleton_from_id(world._handle.add_empty_skeleton(branch.name if name is None else name))
@@ -187,8 +187,8 @@ class Branches(SkeletonBuilding):
     def _branch(self, body: BodyNode | str | int) -> BodyNode:
         """A body of any skeleton of the world."""
         found = self.body(body) if isinstance(body, (str, int, np.integer)) else body
-        if found.skeleton.world is not self.world:
-            raise ValueError(f"{found!r} is of another world; bodies move within one")
+        if not any(found is one for skel in self.world.skeletons for one in skel.bodynodes):
+            raise ValueError(f"{found!r} is not a body of {self.world!r}; bodies move within one world")
         return found
 
 

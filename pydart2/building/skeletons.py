@@ -154,14 +154,8 @@ class SkeletonBuilding(Structure):
         self._handle.remove_body(self._parent_index(body))
         self.build()
 
-    def _parent(self, parent: BodyNode | str | int) -> BodyNode:
-        body = self.body(parent) if isinstance(parent, (str, int, np.integer)) else parent
-        if body.skeleton is not self:
-            raise ValueError(f"the parent {body!r} is of another skeleton")
-        return body
-
     def _parent_index(self, parent: BodyNode | str | int) -> int:
-        return int(self._parent(parent).id)
+        return int(self._own_body(parent).id)
 
 
 def engine_name(kind: str) -> str:

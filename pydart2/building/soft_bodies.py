@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from pydart2.building import solids
 from pydart2.building.bodies import DENSITY, BodyOptions, check_options, paint
 from pydart2.building.skins import Skin
+from pydart2.given import number
 from pydart2.simulation.members import Members
 
 if TYPE_CHECKING:
@@ -97,7 +98,7 @@ class SoftBuilding(Members):
     ) -> Skeleton:
         """Add a soft sphere, its radius in m, at a position of shape (3,), m; as add_soft_ellipsoid()."""
         named: SoftOptions = {"name": "soft_sphere", **options}
-        return self.add_soft_ellipsoid(np.full(3, 2.0 * radius), mass, position, cells=cells, **named)
+        return self.add_soft_ellipsoid(np.full(3, 2.0 * number(radius, "radius")), mass, position, cells=cells, **named)
 
     def add_soft_mesh(
         self,
@@ -119,7 +120,7 @@ class SoftBuilding(Members):
         self, solid: solids.Solid, points: Skin, mass: float | None, position: ArrayLike, options: SoftOptions
     ) -> Skeleton:
         check_options(options, SoftOptions)
-        half = (options.get("density", DENSITY) * solid.volume if mass is None else mass) / 2.0
+        half = solid.mass(mass, options.get("density", DENSITY)) / 2.0
         if not 0.0 < half < np.inf or not solid.volume > 0.0:
             raise ValueError("a soft body needs a mass, and a surface that encloses something")
         springs = {name: float(options[name]) for name in ("stiffness", "edge_stiffness", "damping") if name in options}

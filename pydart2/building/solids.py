@@ -8,6 +8,8 @@ from math import inf, pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2.given import number, numbers
+
 _LARGEST = 1e100  # m, whose third power is a number
 
 
@@ -39,19 +41,20 @@ class Solid:
     heights: NDArray[np.float64] | None = None
     scale: NDArray[np.float64] | None = None
 
+    def mass(self, given: float | None, density: float) -> float:
+        """The mass that is given, kg, or that of a density, kg/m³; TypeError if they are no numbers."""
+        return number(density, "density") * self.volume if given is None else number(given, "mass")
+
 
 def _three(size: ArrayLike, what: str) -> tuple[float, float, float]:
-    edges = np.asarray(size, dtype=float)
+    edges = numbers(size, what)
     if edges.shape != (3,):
         raise ValueError(f"{what} are three numbers, got {size!r}")
     return float(edges[0]), float(edges[1]), float(edges[2])
 
 
 def _lengths(*values: float) -> tuple[float, ...]:
-    try:
-        lengths = tuple(map(float, values))
-    except TypeError:
-        raise TypeError(f"lengths are numbers, in m, not {', '.join(map(repr, values))}") from None
+    lengths = tuple(number(value, "a length") for value in values)
     if any(_LARGEST < abs(length) < inf for length in lengths):
         raise ValueError(f"lengths are at most {_LARGEST:g} m, got {', '.join(map(repr, values))}")
     return lengths
@@ -120,7 +123,7 @@ def heightfield(heights: ArrayLike, scale: ArrayLike) -> Solid:
     Row 0 is at the greatest y. The scale, shape (3,), is the distance of columns and of rows, m, and what heights are
     multiplied by.
     """
-    field = np.array(heights, dtype=float, ndmin=2)
+    field = np.array(numbers(heights, "heights"), ndmin=2)
     factors = np.array(_three(scale, "the scales of a field of heights"))
     if not (factors.astype(np.float32) > 0.0).all():  # the precision in which the engine keeps them
         raise ValueError(f"the scales of a field of heights must be positive in single precision, got {scale!r}")
@@ -133,7 +136,7 @@ def mesh(vertices: ArrayLike, triangles: ArrayLike) -> Solid:
 
     Mirtich, Fast and Accurate Computation of Polyhedral Mass Properties (1996), as a sum over tetrahedra.
     """
-    points, faces = np.array(vertices, dtype=float), np.array(triangles, dtype=float)
+    points, faces = np.array(numbers(vertices, "vertices")), np.array(numbers(triangles, "triangles"))
     if points.ndim != 2 or points.shape[1] != 3 or faces.ndim != 2 or faces.shape[1] != 3:
         raise ValueError(f"vertices are (n, 3) and triangles (m, 3), got {points.shape} and {faces.shape}")
     if faces.size and (faces.min() < 0 or faces.max() >= len(points)):

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydart2.building import solids
 from pydart2.building.bodies import DENSITY, BodyOptions, ShapeOptions, attach, check_options
 from pydart2.building.soft_bodies import SoftBuilding
+from pydart2.given import number, numbers
 from pydart2.poses import between, pose
 from pydart2.simulation.up import Upright
 
@@ -48,13 +49,13 @@ class WorldBuilding(SoftBuilding, Upright):
         size
             Its two edges, shape (2,), m.
         """
-        up = self._upwards()
-        edges = np.asarray(size, dtype=float)
+        up, top = self._upwards(), number(height, "height")
+        edges = numbers(size, "the edges of a ground")
         if edges.shape != (2,):
             raise ValueError(f"a ground has two edges, got {size!r}")
         box = solids.box([edges[0], edges[1], 1.0])
         options: BodyOptions = {"orientation": between(up), "friction": friction, "restitution": restitution}
-        return self._add_single(box, 0.0, (height - 0.5) * up, {**options, "name": name, "color": color, "fixed": True})
+        return self._add_single(box, 0.0, (top - 0.5) * up, {**options, "name": name, "color": color, "fixed": True})
 
     def add_box(
         self,
@@ -184,7 +185,7 @@ class WorldBuilding(SoftBuilding, Upright):
         self, solid: solids.Solid, mass: float | None, position: ArrayLike, options: BodyOptions
     ) -> Skeleton:
         check_options(options, BodyOptions)
-        if mass is not None and not mass >= 0.0:
+        if mass is not None and not number(mass, "mass") >= 0.0:
             raise ValueError(f"a mass must be positive, got {mass}")
         fixed = options.get("fixed", False)
         if not fixed and (mass == 0.0 or (mass is None and solid.volume == 0.0)):

@@ -177,6 +177,8 @@ def _source_of(what: Source, options: Options) -> tuple[str | None, bytes]:
         return None, what
     if isinstance(what, str) and (options.text or what.lstrip("\ufeff \t\r\n").startswith("<")):
         return None, what.encode("utf-8", "replace")
+    if not isinstance(what, (str, os.PathLike)):
+        raise TypeError(f"a model is a path, a URI or the text of a file, got {what!r}")
     path = _path_of(os.fspath(what), options)
     return path, files.read_bytes(path)
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2.alias import Alias, also, forwards
 from pydart2.frames import Frame
+from pydart2.given import numbers
 from pydart2.multibody.part import Part
 
 if TYPE_CHECKING:
@@ -158,7 +159,9 @@ class Motion(Frame, Part):
 
     def expand_jacobian(self, jacobian: ArrayLike) -> NDArray[np.float64]:
         """A Jacobian over the dependent dofs, shape (r, n), with zeros for the others, shape (r, ndofs); units stay."""
-        dependent = np.asarray(jacobian, dtype=float)
+        dependent = numbers(jacobian, "a Jacobian")
+        if dependent.ndim != 2 or dependent.shape[1] != len(self.dependent_dofs):
+            raise ValueError(f"a Jacobian needs shape (r, {len(self.dependent_dofs)}), got {dependent.shape}")
         full = np.zeros((dependent.shape[0], self.skeleton.ndofs))
         full[:, [dof.id for dof in self.dependent_dofs]] = dependent
         return full

@@ -125,6 +125,13 @@ class Structure:
             raise IndexError(f"no {kind} {query} in skeleton {self.name!r}: there are {len(parts)}")
         return parts[query]
 
+    def _own_body(self, body: BodyNode | str | int) -> BodyNode:
+        """One of the skeleton's bodies, given as itself, by name or by index."""
+        found = self.body(body) if isinstance(body, (str, int, np.integer)) else body
+        if not any(found is own for own in self.bodynodes):
+            raise ValueError(f"{found!r} is not a body of {self!r}")
+        return found
+
     def root_bodynodes(self) -> list[BodyNode]:
         """The bodies without a parent."""
         return [body for body in self.bodynodes if body.parent_bodynode is None]

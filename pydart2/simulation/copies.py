@@ -68,6 +68,8 @@ class Copies(WorldPart):
         Raises ValueError if the model is another one or has changed since: skeletons, masses, limits, gravity, time
         step and so on. With ``strict=False`` only the number of states must fit.
         """
+        if not isinstance(snapshot, Snapshot):
+            raise TypeError(f"a world is restored from what its snapshot() gave, not from {snapshot!r}")
         if strict and snapshot.model != model_hash(self._handle):
             raise ValueError(
                 f"{snapshot!r} is of another model than {self!r}, or the model has changed since; "

@@ -183,15 +183,15 @@ class Members(WorldPart):
         self._take_in(skel)
         return skel
 
-    def remove_skeleton(self, skel: Skeleton | str) -> None:
-        """Take a skeleton, or that of a name, out of the world, with the constraints that hold it; it is gone then.
+    def remove_skeleton(self, skel: Skeleton | str | int) -> None:
+        """Take a skeleton, or that of a name or index, out of the world, with the constraints that hold it.
 
         Contacts that it had stay in `collision_result` and in the recording, without a body on its side.
         """
-        if isinstance(skel, str):
+        if isinstance(skel, (str, int, np.integer)):
             skel = self.skeleton(skel)
-        index = skel.id
-        if skel not in self.skeletons[index : index + 1]:
+        index = next((i for i, own in enumerate(self.skeletons) if own is skel), None)
+        if index is None:
             raise ValueError(f"{skel!r} is not in {self!r}")
         self.collision_result._look()  # the engine forgets them
         self._handle.remove_skeleton(index)

@@ -47,10 +47,10 @@ class StepOptions(WorldPart):
         """
         if isinstance(detector, str) and detector not in DETECTORS.values():
             raise NameNotFound("collision detector", detector, ", ".join(DETECTORS.values()), DETECTORS.values())
-        if not isinstance(detector, str) and detector not in DETECTORS:
+        if not isinstance(detector, str) and not (isinstance(detector, (int, np.integer)) and detector in DETECTORS):
             known = " ".join(f"{i} ({name})" for i, name in DETECTORS.items())
             raise ValueError(f"no collision detector {detector!r}; they are {known}")
-        self._handle.set_collision_detector(detector if isinstance(detector, str) else DETECTORS[detector])
+        self._handle.set_collision_detector(detector if isinstance(detector, str) else DETECTORS[int(detector)])
 
     def collision_detector(self) -> int:
         """One of the `*_COLLISION_DETECTOR`, -1 for another."""

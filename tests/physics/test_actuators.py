@@ -155,7 +155,8 @@ def test_mimic_is_a_motor_not_a_gear(tmp_path: Path) -> None:
     M ddq = tau. A gear would load it with the motor's torque as well."""
     world = make_world(tmp_path, arm(), gravity=(0, 0, 0))
     skel = world.skeletons[0]
-    skel.joints[1].set_mimic(skel.joints[0], multiplier=-1.0)
+    skel.joints[1].set_mimic(skel.joints[0].name, multiplier=-1.0)
+    assert skel.joints[1].mimic() == (skel.joints[0], -1.0, 0.0)
     row = skel.M[0]
     for _ in range(500):
         skel.tau = [1.0, 0.0]

@@ -35,7 +35,10 @@ def test_forces_carry_the_weight(world: World) -> None:
     assert_allclose(world.contacts_between(low, ground).force, [0.0, 2.0 * MASS * G, 0.0], atol=1e-3)
     assert_allclose(world.contacts_between(high.skeleton, low).force, [0.0, MASS * G, 0.0], atol=1e-3)
     assert_allclose(world.contacts_between(low, high).force, [0.0, -MASS * G, 0.0], atol=1e-3)
+    assert_allclose(world.contacts_between("low", "high").force, [0.0, -MASS * G, 0.0], atol=1e-3)
     assert len(world.contacts_between(high, ground)) == 0
+    with pytest.raises(ValueError, match="is not in this world"):
+        world.contacts_between(high, world.clone().skeletons[0])
     assert_allclose(low.skeleton.contacts.force, low.contact_force(), atol=0.0)
 
 

@@ -63,7 +63,9 @@ def test_terms_of_a_pendulum(pendulum: Skeleton) -> None:
     assert_allclose(pendulum.inverse_dynamics([1.5], damping=False, springs=False), [inertia * 1.5 + gravity])
     assert_allclose(pendulum.forward_dynamics([3.0]), [(3.0 - gravity - 1.8) / inertia], rtol=1e-12)
     bob = pendulum.body("bob")
-    assert_allclose(pendulum.impulse_response(bob, [1.0, 0.0, 0.0], [0, -0.5, 0]), [0.5 * np.cos(0.3) / inertia])
+    for given in (bob, "bob", bob.id):
+        response = pendulum.impulse_response(given, [1.0, 0.0, 0.0], [0, -0.5, 0])
+        assert_allclose(response, [0.5 * np.cos(0.3) / inertia])
 
 
 def test_the_work_of_gravity_and_springs(pendulum: Skeleton, human: Skeleton) -> None:

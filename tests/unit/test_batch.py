@@ -212,7 +212,7 @@ def test_what_is_refused() -> None:
         batch.rollout(None, np.zeros((2, 5, 1)))
     with pytest.raises(ValueError, match="actions must be finite, got nan"):
         batch.rollout(None, np.full((2, ndofs), np.nan))
-    with pytest.raises(ValueError, match=r"forces needs shape \(2, 37\), got \(3, 37\)"):
+    with pytest.raises(ValueError, match=r"forces needs shape \(2, 37\), or \(37,\) for all worlds, got \(3, 37\)"):
         batch.tau = np.zeros((3, ndofs))
     with pytest.raises(ValueError, match="positions must be finite"):
         batch.q = np.full(ndofs, np.inf)

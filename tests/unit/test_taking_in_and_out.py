@@ -66,7 +66,7 @@ def test_contacts_name_the_right_bodies_after_a_removal(looked: bool) -> None:
     world = boxes()
     if looked:
         assert positions(world.collision_result) == {"box0": 0.0, "box1": 1.0, "box2": 2.0}
-    world.remove_skeleton(world.skeletons[2])
+    world.remove_skeleton(2)
     recording = world.recording
     assert recording is not None
     for result in (world.collision_result, recording.contacts(2)):
