@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.given import numbers
+from pydart2.poses import pose, rotation
 
 if TYPE_CHECKING:
     from pydart2.bodynode import BodyNode
@@ -54,14 +55,6 @@ class Frame:
         return _turned(_spatial(self, n) - _carried(self, to, n), axes)
 
 
-def _rotation(matrix: ArrayLike) -> Array:
-    """The matrix, if it is a rotation."""
-    R = numbers(matrix, "a rotation")
-    if R.shape != (3, 3) or not np.allclose(R @ R.T, np.eye(3), atol=1e-6) or np.linalg.det(R) < 0.0:
-        raise ValueError(f"a rotation is an orthonormal, right-handed matrix of the shape (3, 3), got {matrix!r}")
-    return R
-
-
 class SimpleFrame(Frame):
     """A frame fixed in a body, or in the world.
 
@@ -72,7 +65,7 @@ class SimpleFrame(Frame):
     parent
         The body; None for the world.
     rotation, translation
-        Pose in the parent, shapes (3, 3) and (3,), m.
+        Pose in the parent: a (3, 3) matrix or a quaternion [w, x, y, z], and shape (3,), m.
 
     Attributes
     ----------
@@ -85,12 +78,10 @@ class SimpleFrame(Frame):
         rotation: ArrayLike | None = None,
         translation: ArrayLike = (0.0, 0.0, 0.0),
     ) -> None:
+        if parent is not None and _body(parent) is not parent:
+            raise TypeError(f"a SimpleFrame is fixed in a body, or in the world, not in {parent!r}")
         self.parent = parent
-        pose = np.eye(4)
-        if rotation is not None:
-            pose[:3, :3] = _rotation(rotation)
-        pose[:3, 3] = translation
-        self.relative = pose
+        self.relative = pose(translation, rotation)
 
     @property
     def relative(self) -> Array:
@@ -98,11 +89,13 @@ class SimpleFrame(Frame):
         return self._relative
 
     @relative.setter
-    def relative(self, pose: ArrayLike) -> None:
-        T = np.array(numbers(pose, "a pose"))
+    def relative(self, relative: ArrayLike) -> None:
+        T = np.array(numbers(relative, "a pose"))
         if T.shape != (4, 4) or not np.isfinite(T).all() or (T[3] != (0.0, 0.0, 0.0, 1.0)).any():
-            raise ValueError(f"a pose is a finite matrix of the shape (4, 4) whose last row is 0 0 0 1, got {pose!r}")
-        _rotation(T[:3, :3])
+            raise ValueError(
+                f"a pose is a finite matrix of the shape (4, 4) whose last row is 0 0 0 1, got {relative!r}"
+            )
+        rotation(T[:3, :3])
         self._relative = T
 
     @property

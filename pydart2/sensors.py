@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2.bodynode import BodyNode
+from pydart2.dof import Dof
 from pydart2.frames import Frame, SimpleFrame
-from pydart2.given import numbers
+from pydart2.given import number, numbers
+from pydart2.joint import Joint
 from pydart2.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from pydart2.batch import Batch
     from pydart2.collision_filter import Bodies
-    from pydart2.dof import Dof
-    from pydart2.joint import Joint
     from pydart2.world import World
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ class Sampled:
 
     @rate.setter
     def rate(self, rate: float | None) -> None:
-        if rate is not None and not 0.0 < rate < float("inf"):
+        if rate is not None and not 0.0 < number(rate, "rate") < float("inf"):
             raise ValueError(f"the rate of a sensor is > 0 readings in a second, or None for each step; got {rate!r}")
         self._rate = rate
 
@@ -207,6 +207,8 @@ class JointEncoder(Sensor):
         rate: float | None = None,
         seed: int = 0,
     ) -> None:
+        if not isinstance(dofs, Iterable) or not all(isinstance(dof, Dof) for dof in dofs):
+            raise TypeError(f"a JointEncoder is of a list of dofs, as robot.dofs, got {dofs!r}")
         if not dofs:
             raise ValueError("a JointEncoder needs a dof")
         self._skeleton = dofs[0].skeleton
@@ -248,6 +250,8 @@ class ForceTorque(Sensor):
         rate: float | None = None,
         seed: int = 0,
     ) -> None:
+        if not isinstance(joint, Joint):
+            raise TypeError(f"a ForceTorque sits in a joint, as robot.joint(0), got {joint!r}")
         self._joint = joint
         labels = [f"{joint.name}.{kind}_{axis}" for kind in ("moment", "force") for axis in "xyz"]
         super().__init__(joint.skeleton.world, labels, noise=noise, bias=bias, rate=rate, seed=seed)
@@ -280,6 +284,8 @@ class Touch(Sensor):
         rate: float | None = None,
         seed: int = 0,
     ) -> None:
+        if not isinstance(body, BodyNode):
+            raise TypeError(f"a Touch is of a body, as robot.body(0), got {body!r}")
         self._body = body
         world, labels = body.skeleton.world, [f"{body.name}.pressure"]
         super().__init__(world, labels, noise=noise, bias=bias, rate=rate, seed=seed)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pydart2 import given
 from pydart2.multibody.structure import Structure
 from pydart2.poses import pose
 
@@ -160,7 +161,7 @@ class SkeletonBuilding(Structure):
 
 def engine_name(kind: str) -> str:
     """The engine's name of a kind of joint; ValueError for one that there is not."""
-    if kind not in JOINTS:
+    if not isinstance(kind, str) or kind not in JOINTS:
         raise ValueError(f"no joint {kind!r}; there are {', '.join(JOINTS)}")
     return JOINTS[kind]
 
@@ -169,7 +170,7 @@ def axes_of(kind: str, axis: ArrayLike | None) -> ArrayLike:
     """The axes of a joint, shape (n, 3), no unit: those given, or its kind's; ValueError for another shape."""
     if axis is None:
         return np.array([[0.0, 0.0, 1.0]]) if kind in _ONE_AXIS else np.array(_AXES.get(kind, np.zeros((0, 3))), float)
-    axes = np.array(axis, dtype=float, ndmin=2)
+    axes = np.array(given.numbers(axis, "an axis"), ndmin=2)
     if axes.shape[1:] != (3,):
         raise ValueError(f"an axis has the shape (3,), two have (2, 3), got {np.shape(axis)}")
     return axes
@@ -183,17 +184,17 @@ def check_joint(
     `limits` have the shape (2,) or (n, 2), `numbers` (n,) or none, in rad or m and as add_body() says.
     """
     n = _DOFS.get(kind, 1)
-    if not math.isfinite(pitch):
+    if not math.isfinite(given.number(pitch, "pitch")):
         raise ValueError(f"the pitch of the joint of {name!r} must be finite, got {pitch}")
     if order not in ("XYZ", "ZYX"):
         raise ValueError(f"the axis order is 'XYZ' or 'ZYX', got {order!r}")
-    pairs = np.array((0.0, 0.0) if limits is None else limits, dtype=float)
+    pairs = given.numbers((0.0, 0.0) if limits is None else limits, "limits")
     if pairs.shape not in ((2,), (1, 2), (n, 2)):
         raise ValueError(f"limits are a pair, or a pair for each of {n} dofs, got the shape {pairs.shape}")
     if not (pairs[..., 0] <= pairs[..., 1]).all():
         raise ValueError(f"a lower limit of the joint of {name!r} is above the upper, or one is NaN: {pairs}")
     for what, value in numbers.items():
-        array = np.array(0.0 if value is None else value, dtype=float)
+        array = given.numbers(0.0 if value is None else value, what)
         if array.shape not in ((), (1,), (n,)):
             raise ValueError(f"{what} is one number, or one for each of {n} dofs, got the shape {array.shape}")
         if not np.isfinite(array).all() or (what != "rest" and (array < 0.0).any()):

@@ -67,8 +67,12 @@ class Options:
             raise ValueError(f"reader must be 'mujoco' or 'engine', got {self.reader!r}")
         if self.missing_meshes not in ("error", "warn"):
             raise ValueError(f"missing_meshes must be 'error' or 'warn', got {self.missing_meshes!r}")
-        if self.name is not None and not self.name.strip():
-            raise ValueError("name must not be empty")
+        if self.name is not None and not (isinstance(self.name, str) and self.name.strip()):
+            raise ValueError(f"name must be a string that is not empty, got {self.name!r}")
+        if self.packages is not None and not isinstance(self.packages, Mapping):
+            raise TypeError(
+                f'packages are folders by name, as {{"arm_description": "/opt/arm"}}, got {self.packages!r}'
+            )
         if self.load_seconds is None:
             return
         if not isinstance(self.load_seconds, Real) or not 0.0 < self.load_seconds <= MOST_SECONDS:

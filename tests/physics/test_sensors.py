@@ -127,7 +127,7 @@ def test_the_pose_of_a_frame_stays_one() -> None:
         with pytest.raises(ValueError, match=r"pose|rotation"):
             frame.relative = wrong
     for wrong in (np.eye(2), np.eye(4), np.ones(3)):
-        with pytest.raises(ValueError, match="a rotation is"):
+        with pytest.raises(ValueError, match="an orientation is"):
             SimpleFrame(rotation=wrong)
     assert frame.relative.tolist() == np.eye(4).tolist()
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import pydart2
+from pydart2 import sensors
 from pydart2.habits import ELSEWHERE, snake
 
 # What is typed, what it raises, and what its sentence has.
@@ -70,6 +71,17 @@ MISTAKES = [
         ValueError,
         "positions needs shape (2, 33), or (33,) for all worlds",
     ),
+    ("sensors.Touch('l_hand')", TypeError, "a Touch is of a body, as robot.body(0), got 'l_hand'"),
+    ("sensors.ForceTorque('l_arm_shx')", TypeError, "a ForceTorque sits in a joint, as robot.joint(0)"),
+    ("sensors.JointEncoder(robot.dof('l_arm_shx'))", TypeError, "a JointEncoder is of a list of dofs, as robot.dofs"),
+    ("sensors.IMU(robot.body('l_hand'), rate='often')", TypeError, "rate must be a number, got 'often'"),
+    ("pydart2.SimpleFrame('l_hand')", TypeError, "a frame is a body, a SimpleFrame, or None for the world"),
+    ("pydart2.SimpleFrame(pydart2.SimpleFrame())", TypeError, "is fixed in a body, or in the world, not in"),
+    ("pydart2.SimpleFrame(translation='up')", TypeError, "a position must be numbers, got 'up'"),
+    ("robot.add_body('tail', limits='wide')", TypeError, "limits must be numbers, got 'wide'"),
+    ("robot.add_body('tail', joint=['ball'])", ValueError, "no joint ['ball']; there are ball, euler"),
+    ("world.add_skeleton('atlas.urdf', name=3)", ValueError, "name must be a string that is not empty, got 3"),
+    ("world.add_skeleton('atlas.urdf', packages='/opt')", TypeError, "packages are folders by name"),
     ("robot.set_targets('l_arm_shx', 1.0)", TypeError, "a dict, as {'l_arm_shx': 0.5}"),
     ("robot.set_targets({'l_arm_shx': 1.0})", ValueError, "has a target and no gains; give kp, kd or both"),
     ("pydart2.Batch(100, world)", TypeError, "Batch(world, 64)"),
@@ -82,7 +94,8 @@ MISTAKES = [
 @pytest.fixture(scope="module")
 def names() -> dict[str, object]:
     world = pydart2.World(0.001, up="z")
-    return {"world": world, "robot": world.add_skeleton("./data/sdf/atlas/atlas_v3_no_head.sdf"), "pydart2": pydart2}
+    robot = world.add_skeleton("./data/sdf/atlas/atlas_v3_no_head.sdf")
+    return {"world": world, "robot": robot, "pydart2": pydart2, "sensors": sensors}
 
 
 @pytest.mark.parametrize(("code", "kind", "sentence"), MISTAKES, ids=[code for code, _, _ in MISTAKES])
