@@ -86,8 +86,8 @@ class Batch:
     threads
         How many threads; default: as many as there are processors. The ODE detector allows only one.
     skeleton
-        Index of the skeleton that `q`, `dq`, `tau`, names of bodies and dofs, and actions are of; default: the last.
-        IndexError if the world has no such skeleton.
+        Index or name of the skeleton that `q`, `dq`, `tau`, names of bodies and dofs, and actions are of; default: the
+        last. IndexError or NameNotFound if there is none.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class Batch:
         For everything that is not an array here: ``batch.worlds[3].skeletons[0].body("floor")``.
     """
 
-    def __init__(self, world: World, n: int, threads: int | None = None, skeleton: int = -1) -> None:
+    def __init__(self, world: World, n: int, threads: int | None = None, skeleton: int | str = -1) -> None:
         if not isinstance(n, (int, np.integer)):
             raise TypeError(f"a batch is of a world and how many: Batch(world, 64), not {n!r}")
         if n < 1:
@@ -103,7 +103,7 @@ class Batch:
         self._begin(_clones(world, n), threads or len(os.sched_getaffinity(0)), skeleton)
         self._start = self.worlds[0].snapshot()
 
-    def _begin(self, worlds: list[World], threads: int, skeleton: int) -> None:
+    def _begin(self, worlds: list[World], threads: int, skeleton: int | str) -> None:
         self.worlds = worlds
         self._handle = BatchHandle(threads)
         for world in worlds:
@@ -111,10 +111,7 @@ class Batch:
                 raise ValueError("a batch runs no controllers: set them to None and give forces with batch.tau")
             world.disable_recording()
             self._handle.add(world._handle)
-        count = len(worlds[0].skeletons)
-        if not -count <= skeleton < count:
-            raise IndexError(f"a batch needs the index of one of the world's {count} skeletons, got {skeleton}")
-        self._index = skeleton % count
+        self._index = worlds[0].skeleton(skeleton).id
         self._tau = np.zeros((len(worlds), self.skeleton.ndofs))
 
     @property

@@ -143,10 +143,7 @@ class WorldQueries(WorldPart):
         if start.ndim not in (1, 2) or start.shape[-1] != 3:
             raise ValueError(f"origins and directions have the shape (3,) or (n, 3), got {start.shape}")
         rows = self._asked().raycast(
-            start.reshape(-1, 3),
-            along.reshape(-1, 3),
-            max_distance,
-            body_rows(self.skeletons, ignore),
+            start.reshape(-1, 3), along.reshape(-1, 3), max_distance, body_rows(self.skeletons, ignore)
         )
         return RayHits(*self._found(rows, start.shape[:-1]))
 
