@@ -56,15 +56,15 @@ class Settable(Alias[Got], Generic[Got, Given]):
         def __set__(self, owner: object, value: Given, /) -> None: ...
 
 
-def forwards(given: str | None = None) -> Callable[[Method], Method]:
+def forwards(*given: bool | str | None) -> Callable[[Method], Method]:
     """Marks a method that only hands on to its handle's of the same name: a short name then asks the handle itself.
 
     So it does while no subclass and no object has a method of its own, and where the value that is set is an array.
 
     Parameters
     ----------
-    given
-        What the handle is given by a method that reads and is told nothing: None, or the attribute of that name.
+    *given
+        What a method that reads gives the handle if it is told nothing, at most three; a str is an attribute's name.
     """
 
     def marked(method: Method) -> Method:

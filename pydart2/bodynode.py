@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import contact_forces
-from pydart2.alias import Alias
+from pydart2.alias import Alias, forwards
 from pydart2.building.bodies import BodyBuilding
 from pydart2.multibody.motion import Motion
 from pydart2.multibody.part import kept
@@ -132,6 +132,7 @@ class BodyNode(Motion, BodyBuilding):
         """Let it collide or not."""
         self._handle.set_collidable(_isCollidable)
 
+    @forwards()
     def mass(self) -> float:
         """Mass, kg."""
         return self._handle.mass()
@@ -142,6 +143,7 @@ class BodyNode(Motion, BodyBuilding):
 
     m = Alias(mass)
 
+    @forwards()
     def inertia(self) -> NDArray[np.float64]:
         """Moment of inertia about the COM, body axes, shape (3, 3), kg m²."""
         return self._handle.inertia()

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import screen
-from pydart2.alias import Alias
+from pydart2.alias import Alias, forwards
 from pydart2.multibody.part import Part
 
 if TYPE_CHECKING:
@@ -56,6 +56,7 @@ class Marker(Part):
         """Set the position in the body frame, shape (3,), m."""
         self._handle.set_local_position(inv3)
 
+    @forwards()
     def world_position(self) -> NDArray[np.float64]:
         """Position in the world, shape (3,), m."""
         return self._handle.world_position()

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pydart2 import constraints, contact_forces, manager, screen, telling
 from pydart2._native import WorldHandle
-from pydart2.alias import Settable
+from pydart2.alias import Settable, forwards
 from pydart2.assignment import Assignable
 from pydart2.building.worlds import WorldBuilding
 from pydart2.collision_filter import CollisionFilter, WorldFilter, part_of
@@ -187,6 +187,7 @@ class World(
 
     # Time
 
+    @forwards()
     def time(self) -> float:
         """Simulated time, s."""
         return self._handle.time()
@@ -197,6 +198,7 @@ class World(
 
     t = Settable(time, set_time)
 
+    @forwards()
     def time_step(self) -> float:
         """Time step, s."""
         return self._handle.time_step()
@@ -264,6 +266,7 @@ class World(
         """The contacts of two bodies or skeletons, or those of a name, in the last step as arrays, from `a`'s side."""
         return contact_forces.between(part_of(self.skeletons, a), part_of(self.skeletons, b))
 
+    @forwards(None)
     def states(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """[q, dq] of each skeleton, one after another, shape (2 * sum of ndofs,), rad, m, rad/s and m/s."""
         return self._handle.states(out)
@@ -276,6 +279,7 @@ class World(
 
     # Gravity, constraints, pairs that pass through each other
 
+    @forwards()
     def gravity(self) -> NDArray[np.float64]:
         """Gravity, shape (3,), m/s²."""
         return self._handle.gravity()

@@ -16,6 +16,14 @@
 /// What the typemaps call: NumPy in, NumPy out.
 namespace pydart2::python {
 
+/// A new ndarray of float64.
+inline PyObject* new_array(int ndim, const npy_intp* shape)
+{
+  static PyArray_Descr* const doubles = PyArray_DescrFromType(NPY_DOUBLE);
+  Py_INCREF(doubles);
+  return PyArray_NewFromDescr(&PyArray_Type, doubles, ndim, shape, nullptr, nullptr, 0, nullptr);
+}
+
 /// The ndarray that a method fills: a fresh one, or after use(o) what the caller passed. That is a pattern for a fresh
 /// one with the same names if it is a named vector that is read-only, else the array to fill.
 class NumpyOutput : public Output
@@ -32,7 +40,7 @@ public:
   {
     npy_intp shape = size;
     if (passed_ == nullptr)
-      return keep(PyArray_SimpleNew(1, &shape, NPY_DOUBLE));
+      return keep(new_array(1, &shape));
     if (!named_vector::is_pattern(passed_))
       return keep(to_fill(1, &shape));
     double* values = keep(named_vector::new_like(passed_));
@@ -46,7 +54,7 @@ public:
   double* matrix(long rows, long cols) override
   {
     npy_intp shape[] = {rows, cols};
-    return keep(passed_ == nullptr ? PyArray_SimpleNew(2, shape, NPY_DOUBLE) : to_fill(2, shape));
+    return keep(passed_ == nullptr ? new_array(2, shape) : to_fill(2, shape));
   }
 
   PyObject* release()
@@ -184,7 +192,7 @@ PyObject* to_numpy(const Matrix& matrix)
 {
   constexpr int rows = Matrix::RowsAtCompileTime, cols = Matrix::ColsAtCompileTime;
   npy_intp shape[] = {matrix.rows(), matrix.cols()};
-  PyObject* array = PyArray_SimpleNew(cols == 1 ? 1 : 2, shape, NPY_DOUBLE);
+  PyObject* array = new_array(cols == 1 ? 1 : 2, shape);
   if (array != nullptr) {
     using Rows = Eigen::Matrix<double, rows, cols, cols == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
     auto* values = static_cast<double*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)));

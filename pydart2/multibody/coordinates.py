@@ -66,7 +66,7 @@ class Coordinates(Structure):
 
     ddq = Settable(accelerations, set_accelerations)
 
-    @forwards()
+    @forwards(None)
     def states(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """[q, dq], shape (2 * ndofs,), rad, m, rad/s and m/s."""
         return self._handle.states(out)
@@ -95,24 +95,28 @@ class Coordinates(Structure):
 
     # Limits
 
+    @forwards()
     def position_lower_limits(self) -> NDArray[np.float64]:
         """Lower limits of q, shape (ndofs,), rad or m; -inf for none."""
         return self._handle.position_lower_limits()
 
     q_lower = Alias(position_lower_limits)
 
+    @forwards()
     def position_upper_limits(self) -> NDArray[np.float64]:
         """Upper limits of q, shape (ndofs,), rad or m; inf for none."""
         return self._handle.position_upper_limits()
 
     q_upper = Alias(position_upper_limits)
 
+    @forwards()
     def force_lower_limits(self) -> NDArray[np.float64]:
         """Lower limits of tau, shape (ndofs,), N m or N; -inf for none."""
         return self._handle.force_lower_limits()
 
     tau_lower = Alias(force_lower_limits)
 
+    @forwards()
     def force_upper_limits(self) -> NDArray[np.float64]:
         """Upper limits of tau, shape (ndofs,), N m or N; inf for none."""
         return self._handle.force_upper_limits()

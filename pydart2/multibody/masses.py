@@ -12,14 +12,14 @@ from pydart2.multibody.coordinates import Coordinates
 class Masses(Coordinates):
     """The part of Skeleton with its masses and forces in the present state."""
 
-    @forwards()
+    @forwards(None)
     def mass_matrix(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Joint-space mass matrix, shape (ndofs, ndofs), kg m² or kg."""
         return self._handle.mass_matrix(out)
 
     M = Alias(mass_matrix)
 
-    @forwards()
+    @forwards(None)
     def inv_mass_matrix(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Inverse of the mass matrix, shape (ndofs, ndofs), 1/(kg m²) or 1/kg."""
         return self._handle.inv_mass_matrix(out)
@@ -28,7 +28,7 @@ class Masses(Coordinates):
 
     Minv = Alias(inv_mass_matrix)
 
-    @forwards()
+    @forwards(None)
     def coriolis_and_gravity_forces(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Coriolis, centrifugal and gravity forces, shape (ndofs,), N m or N."""
         return self._handle.coriolis_and_gravity_forces(out)
@@ -41,25 +41,28 @@ class Masses(Coordinates):
 
     # Centre of mass
 
+    @forwards()
     def mass(self) -> float:
         """Total mass, kg."""
         return self._handle.mass()
 
     m = Alias(mass)
 
-    @forwards()
+    @forwards(None)
     def com(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Centre of mass, world frame, shape (3,), m."""
         return self._handle.com(out)
 
     C = Alias(com)
 
+    @forwards()
     def com_velocity(self) -> NDArray[np.float64]:
         """Velocity of the centre of mass, world frame, shape (3,), m/s."""
         return self._handle.com_velocity()
 
     dC = Alias(com_velocity)  # noqa: N815
 
+    @forwards()
     def com_acceleration(self) -> NDArray[np.float64]:
         """Acceleration of the centre of mass, world frame, shape (3,), m/s²."""
         return self._handle.com_acceleration()

@@ -23,7 +23,7 @@ class Motion(Frame, Part):
     dependent_dofs: list[Dof]
     _handle: BodyNodeHandle
 
-    @forwards()
+    @forwards(None)
     def transform(self, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Pose of the body frame in the world, shape (4, 4), m."""
         return self._handle.transform(out)
@@ -46,12 +46,14 @@ class Motion(Frame, Part):
 
     # Centre of mass
 
+    @forwards()
     def com(self) -> NDArray[np.float64]:
         """Centre of mass in the world, shape (3,), m."""
         return self._handle.com()
 
     C = Alias(com)
 
+    @forwards()
     def com_linear_velocity(self) -> NDArray[np.float64]:
         """Velocity of the centre of mass, world frame, shape (3,), m/s."""
         return self._handle.com_linear_velocity()
@@ -121,31 +123,27 @@ class Motion(Frame, Part):
         """Jacobian of a point in world coordinates, shape (6, n), dimensionless rows and then m/rad."""
         return self._handle.world_jacobian(offset, full, out)
 
+    @forwards(None, True, None)
     def linear_jacobian(
         self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
         """Linear Jacobian of a point in world coordinates, shape (3, n): ``J @ dq`` is its velocity in m/s."""
         return self._handle.linear_jacobian(offset, full, out)
 
-    @property
-    def J(self) -> NDArray[np.float64]:  # noqa: N802 (the field's name)
-        """Linear Jacobian of the origin in world coordinates, shape (3, ndofs), m/rad or 1."""
-        return self._handle.linear_jacobian(None, True, None)
+    J = Alias(linear_jacobian)
 
     def angular_jacobian(self, full: bool = True, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Angular Jacobian in world coordinates, shape (3, n): times dq it is the angular velocity in rad/s."""
         return self._handle.angular_jacobian(full, out)
 
+    @forwards(None, True, None)
     def linear_jacobian_deriv(
         self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
         """Time derivative of linear_jacobian(), shape (3, n)."""
         return self._handle.linear_jacobian_deriv(offset, full, out)
 
-    @property
-    def dJ(self) -> NDArray[np.float64]:  # noqa: N802 (the original's)
-        """Time derivative of J, shape (3, ndofs)."""
-        return self._handle.linear_jacobian_deriv(None, True, None)
+    dJ = Alias(linear_jacobian_deriv)  # noqa: N815 (the original's)
 
     def world_jacobian_classic_deriv(
         self, offset: ArrayLike | None = None, full: bool = True, out: NDArray[np.float64] | None = None

@@ -13,6 +13,7 @@ import pytest
 
 import pydart2
 from physics.models import standing_atlas
+from physics.test_integrators import tree
 from pydart2.joint import Joint
 
 from .test_choice import held_cubes, results, skel
@@ -80,6 +81,59 @@ def many() -> pydart2.World:
     for place in range(3):
         world.add_box((0.2, 0.2, 0.2), None, (0.1 * place, 0.19 * place, 3.0))
     return world
+
+
+POINT = (0.1, -0.2, 0.3)
+
+
+def motion(body: pydart2.BodyNode) -> bytes:
+    """All that is read of where a body is and how fast."""
+    poses = (body.T, body.C, body.to_world(POINT), body.to_local(POINT))
+    velocities = (
+        body.dC,
+        body.world_angular_velocity(),
+        body.world_linear_velocity(),
+        body.world_linear_velocity(POINT),
+    )
+    spatial = (body.world_spatial_velocity(), body.world_spatial_velocity(POINT), body.com_spatial_velocity())
+    rest = (body.J, body.dJ, body.linear_momentum(), body.angular_momentum())
+    return b"".join(one.tobytes() for one in (*poses, *velocities, *spatial, *rest))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [lambda: tree(1e-3, "engine"), lambda: skel("fullbody1"), many],
+    ids=["a joint of each kind", "fullbody1", "many"],
+)
+def test_motion_is_read_with_the_same_bits(make: Callable[[], pydart2.World]) -> None:
+    """Of bodies in any order, after a step and after a change."""
+    worlds = [make() for _ in range(2)]
+    for world, name in zip(worlds, ("engine", "fast"), strict=True):
+        world.set_dynamics(name)
+    changes: list[Callable[[pydart2.Skeleton], object]] = [
+        lambda robot: None,
+        lambda robot: robot.set_positions(robot.q + 1e-3),
+        lambda robot: robot.set_velocities(robot.dq * 0.9),
+        lambda robot: robot.joints[-1].set_transform_from_parent_body_node(np.eye(4)),
+    ]
+    rng = np.random.default_rng(5)
+    for i in range(40):
+        assert results(worlds[0], i % 3) == results(worlds[1], i % 3)
+        place = rng.integers(len(worlds[0].skeletons))
+        pair = [world.skeletons[place] for world in worlds]
+        for robot in pair:
+            changes[i % 4](robot)
+        for j in rng.permutation(pair[0].nbodies)[:10]:
+            assert motion(pair[0].bodynodes[j]) == motion(pair[1].bodynodes[j])
+
+
+def test_velocity_of_a_point_is_the_linear_part_of_the_spatial_one() -> None:
+    """To the bit: the engine finds that one."""
+    world = tree(1e-3, "engine")
+    world.step(20)
+    for body in world.skeletons[0].bodynodes:
+        for point, velocity in ((POINT, body.world_linear_velocity(POINT)), (body.local_com(), body.dC)):
+            assert velocity.tobytes() == body.world_spatial_velocity(point)[3:].tobytes()
 
 
 def disturb(world: pydart2.World, rng: np.random.Generator) -> object:

@@ -44,7 +44,7 @@ std::unique_ptr<TreeDynamics> TreeDynamics::of(Skeleton& skeleton)
   return made;
 }
 
-TreeDynamics::TreeDynamics(Skeleton& skeleton) : skeleton_(skeleton) {}
+TreeDynamics::TreeDynamics(Skeleton& skeleton) : skeleton_(skeleton), by_body_(skeleton.getNumBodyNodes()) {}
 
 bool TreeDynamics::add(BodyNode& body, Link* parent)
 {
@@ -86,6 +86,7 @@ bool TreeDynamics::add(BodyNode& body, Link* parent)
   link.constant = type != typeid(UniversalJoint) && type != typeid(EulerJoint) && type != typeid(PlanarJoint);
 
   links_.push_back(std::move(made));
+  by_body_[body.getIndexInSkeleton()] = &link;
   if (parent != nullptr)
     parent->children.push_back(&link);
   for (std::size_t i = 0; i < body.getNumChildBodyNodes(); ++i)
@@ -177,29 +178,45 @@ void TreeDynamics::accelerate(bool share)
     update_acceleration(*link, dt);
 }
 
+void TreeDynamics::find_pose(const BodyNode& body)
+{
+  put_numbers(nullptr);
+  find_pose(*by_body_[body.getIndexInSkeleton()]);
+}
+
+void TreeDynamics::find_velocity(const BodyNode& body)
+{
+  put_numbers(nullptr);
+  find_velocity(*by_body_[body.getIndexInSkeleton()]);
+}
+
+void TreeDynamics::find_pose(Link& link)
+{
+  if (!(link.entity->*EntityOf::transform_dirty))
+    return;
+  if (link.parent != nullptr)
+    find_pose(*link.parent);
+  update_transform(link);
+  update_pose(link);
+}
+
+void TreeDynamics::find_velocity(Link& link)
+{
+  if (!(link.entity->*EntityOf::velocity_dirty))
+    return;
+  if (link.parent != nullptr)
+    find_velocity(*link.parent);
+  update_transform(link);
+  update_velocity(link);
+}
+
 /// Poses and velocities, and the acceleration that comes of them alone.
 [[gnu::flatten]] void TreeDynamics::update_motion(Link& link)
 {
-  Joint& joint = *link.joint;
   update_transform(link);
-  const Eigen::Isometry3d& T = *link.transform;
-  if (link.entity->*EntityOf::transform_dirty) {
-    link.frame->*FrameOf::transform = link.parent_frame->*FrameOf::transform * T;
-    link.entity->*EntityOf::transform_dirty = false;
-  }
+  update_pose(link);
   link.unread = link.entity->*EntityOf::velocity_dirty;
-  if (link.unread) {
-    Vector6 relative = joint.*JointOf::velocity;
-    if (joint.*JointOf::velocity_dirty) {
-      visit(link, [&](auto& typed) { relative = jacobian(typed, link.constant) * state(typed).mVelocities; });
-      if (shared_ == nullptr) {
-        joint.*JointOf::velocity = relative;
-        joint.*JointOf::velocity_dirty = false;
-      }
-    }
-    link.frame->*FrameOf::velocity = spatial::to_child(T, link.parent_frame->*FrameOf::velocity) + relative;
-    link.entity->*EntityOf::velocity_dirty = false;
-  }
+  update_velocity(link);
   if (shared_ == nullptr && !(link.body->*Body::partial_acceleration_dirty))
     return;
   if (link.kind == Kind::none)
@@ -211,6 +228,33 @@ void TreeDynamics::accelerate(bool share)
   });
   if (shared_ == nullptr)
     link.body->*Body::partial_acceleration_dirty = false;
+}
+
+/// From the parent's and the joint's.
+[[gnu::flatten]] void TreeDynamics::update_pose(Link& link)
+{
+  if (!(link.entity->*EntityOf::transform_dirty))
+    return;
+  link.frame->*FrameOf::transform = link.parent_frame->*FrameOf::transform * *link.transform;
+  link.entity->*EntityOf::transform_dirty = false;
+}
+
+/// From the parent's and the joint's.
+[[gnu::flatten]] void TreeDynamics::update_velocity(Link& link)
+{
+  if (!(link.entity->*EntityOf::velocity_dirty))
+    return;
+  Joint& joint = *link.joint;
+  Vector6 relative = joint.*JointOf::velocity;
+  if (joint.*JointOf::velocity_dirty) {
+    visit(link, [&](auto& typed) { relative = jacobian(typed, link.constant) * state(typed).mVelocities; });
+    if (shared_ == nullptr) {
+      joint.*JointOf::velocity = relative;
+      joint.*JointOf::velocity_dirty = false;
+    }
+  }
+  link.frame->*FrameOf::velocity = spatial::to_child(*link.transform, link.parent_frame->*FrameOf::velocity) + relative;
+  link.entity->*EntityOf::velocity_dirty = false;
 }
 
 /// Of the joint.

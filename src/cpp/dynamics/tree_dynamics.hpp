@@ -50,6 +50,10 @@ public:
   /// As Skeleton::clearConstraintImpulses().
   void clear_impulses();
 
+  /// Bring a body's pose or velocity up to date between steps, as the engine does when it is asked for them.
+  void find_pose(const dart::dynamics::BodyNode& body);
+  void find_velocity(const dart::dynamics::BodyNode& body);
+
   /// Whether no body, since accelerate(), is farther from the origin along an axis.
   bool is_within(double distance) const;
 
@@ -111,6 +115,10 @@ private:
 
   void update_motion(Link& link);
   void update_transform(Link& link);
+  static void update_pose(Link& link);
+  void update_velocity(Link& link);
+  void find_pose(Link& link);
+  void find_velocity(Link& link);
   void update_inertias();
   void update_inertia(Link& link, double dt);
   static void add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum);
@@ -147,6 +155,7 @@ private:
 
   dart::dynamics::Skeleton& skeleton_;
   std::vector<std::unique_ptr<Link>> links_; ///< Parents first.
+  std::vector<Link*> by_body_;               ///< In the order of the skeleton's bodies.
   long changes_ = -1; ///< That it has kept up with.
   bool fetch_ahead_ = false;
   Numbers* shared_ = nullptr; ///< Where numbers are; null for the engine's.

@@ -3,6 +3,8 @@
 #include <dart/dynamics/SoftBodyNode.hpp>
 
 #include "base/checks.hpp"
+#include "dynamics/tree_dynamics.hpp"
+#include "engine/tree_members.hpp"
 
 namespace pydart2 {
 
@@ -22,6 +24,14 @@ bool each_contact_shape(BodyNode& body, Change change)
     any = true;
   }
   return any;
+}
+
+/// World frame: Frame::getLinearVelocity(point), without what that asks on its way.
+Eigen::Vector3d velocity_at(const BodyNode& body, const Eigen::Vector3d& point)
+{
+  Vector6d V = body.getSpatialVelocity();
+  V.tail<3>() += V.head<3>().cross(point);
+  return dart::math::AdR(body.getWorldTransform(), V).tail<3>();
 }
 
 } // namespace
@@ -196,9 +206,34 @@ bool BodyNodeHandle::set_restitution_coeff(double coefficient)
   return each_contact_shape(*body_, [&](auto& aspect) { aspect.setRestitutionCoeff(coefficient); });
 }
 
+TreeDynamics* BodyNodeHandle::mover() const
+{
+  const auto& skeleton = *body_.skeleton;
+  const bool is_ours = body_.world->dynamics == Dynamics::fast && skeleton.dynamics_structure == skeleton.structure;
+  return is_ours ? skeleton.made_dynamics.get() : nullptr;
+}
+
+BodyNode& BodyNodeHandle::posed() const
+{
+  BodyNode& body = *body_;
+  auto* ours = body.*engine::EntityMembers::transform_dirty ? mover() : nullptr;
+  if (ours != nullptr)
+    ours->find_pose(body);
+  return body;
+}
+
+BodyNode& BodyNodeHandle::moving() const
+{
+  BodyNode& body = posed();
+  auto* ours = body.*engine::EntityMembers::velocity_dirty ? mover() : nullptr;
+  if (ours != nullptr)
+    ours->find_velocity(body);
+  return body;
+}
+
 void BodyNodeHandle::transform(Output& into) const
 {
-  matrix(into, 4, 4) = body_->getWorldTransform().matrix();
+  matrix(into, 4, 4) = posed().getWorldTransform().matrix();
 }
 
 Eigen::Matrix4d BodyNodeHandle::relative_transform() const
@@ -208,23 +243,24 @@ Eigen::Matrix4d BodyNodeHandle::relative_transform() const
 
 Eigen::Vector3d BodyNodeHandle::to_world(const Eigen::Vector3d* offset) const
 {
-  const auto& T = body_->getWorldTransform();
+  const auto& T = posed().getWorldTransform();
   return offset == nullptr ? Eigen::Vector3d(T.translation()) : T * *offset;
 }
 
 Eigen::Vector3d BodyNodeHandle::to_local(const Eigen::Vector3d& point) const
 {
-  return body_->getWorldTransform().inverse() * point;
+  return posed().getWorldTransform().inverse() * point;
 }
 
 Eigen::Vector3d BodyNodeHandle::com() const
 {
-  return body_->getCOM();
+  return posed().getCOM();
 }
 
 Eigen::Vector3d BodyNodeHandle::com_linear_velocity() const
 {
-  return body_->getCOMLinearVelocity();
+  const BodyNode& body = moving();
+  return velocity_at(body, body.getLocalCOM());
 }
 
 Eigen::Vector3d BodyNodeHandle::com_linear_acceleration() const
@@ -234,7 +270,7 @@ Eigen::Vector3d BodyNodeHandle::com_linear_acceleration() const
 
 Vector6d BodyNodeHandle::com_spatial_velocity() const
 {
-  return body_->getCOMSpatialVelocity();
+  return moving().getCOMSpatialVelocity();
 }
 
 Vector6d BodyNodeHandle::com_spatial_acceleration() const
@@ -244,7 +280,8 @@ Vector6d BodyNodeHandle::com_spatial_acceleration() const
 
 Eigen::Vector3d BodyNodeHandle::linear_velocity(const Eigen::Vector3d* offset) const
 {
-  return offset == nullptr ? body_->getLinearVelocity() : body_->getLinearVelocity(*offset);
+  const BodyNode& body = moving();
+  return offset == nullptr ? body.getLinearVelocity() : velocity_at(body, *offset);
 }
 
 Eigen::Vector3d BodyNodeHandle::linear_acceleration(const Eigen::Vector3d* offset) const
@@ -254,7 +291,7 @@ Eigen::Vector3d BodyNodeHandle::linear_acceleration(const Eigen::Vector3d* offse
 
 Eigen::Vector3d BodyNodeHandle::angular_velocity() const
 {
-  return body_->getAngularVelocity();
+  return moving().getAngularVelocity();
 }
 
 Eigen::Vector3d BodyNodeHandle::angular_acceleration() const
@@ -265,7 +302,7 @@ Eigen::Vector3d BodyNodeHandle::angular_acceleration() const
 Vector6d BodyNodeHandle::spatial_velocity(const Eigen::Vector3d* offset) const
 {
   using dart::dynamics::Frame;
-  return body_->getSpatialVelocity(offset == nullptr ? origin : *offset, Frame::World(), Frame::World());
+  return moving().getSpatialVelocity(offset == nullptr ? origin : *offset, Frame::World(), Frame::World());
 }
 
 Vector6d BodyNodeHandle::spatial_acceleration(const Eigen::Vector3d* offset) const
@@ -276,12 +313,12 @@ Vector6d BodyNodeHandle::spatial_acceleration(const Eigen::Vector3d* offset) con
 
 Eigen::Vector3d BodyNodeHandle::linear_momentum() const
 {
-  return body_->getLinearMomentum();
+  return moving().getLinearMomentum();
 }
 
 Eigen::Vector3d BodyNodeHandle::angular_momentum() const
 {
-  return body_->getAngularMomentum();
+  return moving().getAngularMomentum();
 }
 
 void BodyNodeHandle::add_ext_force(
@@ -321,8 +358,9 @@ void BodyNodeHandle::write(const BodyNode& body, const Columns& dependent, bool 
   }
   auto J = matrix(out, dependent.rows(), static_cast<long>(body_.skeleton->skeleton->getNumDofs()));
   J.setZero();
-  for (long i = 0; i < dependent.cols(); ++i)
-    J.col(static_cast<long>(body.getDependentGenCoordIndex(static_cast<std::size_t>(i)))) = dependent.col(i);
+  const auto& dofs = body.getDependentGenCoordIndices();
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    J.col(static_cast<long>(dofs[i])) = dependent.col(static_cast<long>(i));
 }
 
 void BodyNodeHandle::jacobian(const Eigen::Vector3d* offset, bool full, Output& into) const

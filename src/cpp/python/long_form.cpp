@@ -17,8 +17,10 @@ struct LongForm
   vectorcallfunc call;
   PyObject* name;
   PyObject* method;
-  PyObject* given; // what a method that only forwards gives to read: None, or an attribute's name; null for others
+  PyObject* given; // the tuple of what a method that only forwards gives the handle when it reads; null for others
 };
+
+constexpr Py_ssize_t most_given = 3;
 
 PyObject* handle_name = nullptr;
 
@@ -37,18 +39,25 @@ bool only_forwards(const LongForm& form, PyObject* function, PyObject* value)
   return form.given != nullptr && function == form.method && (value == nullptr || PyObject_CheckBuffer(value));
 }
 
+/// What the handle is given for an entry of `given` (new reference): a name's attribute, all else as it is.
+PyObject* resolve(PyObject* owner, PyObject* entry)
+{
+  return PyUnicode_Check(entry) ? PyObject_GetAttr(owner, entry) : Py_NewRef(entry);
+}
+
 /// What that function would do.
 PyObject* forward(const LongForm& form, PyObject* owner, PyObject* value)
 {
-  PyObject* handle = PyObject_GetAttr(owner, handle_name);
-  if (handle == nullptr)
-    return nullptr;
-  const bool is_attribute = value == nullptr && form.given != Py_None;
-  PyObject* given = is_attribute ? PyObject_GetAttr(owner, form.given) : Py_NewRef(value == nullptr ? Py_None : value);
-  PyObject* args[] = {handle, given};
-  PyObject* result = given == nullptr ? nullptr : PyObject_VectorcallMethod(form.name, args, 2, nullptr);
-  Py_DECREF(handle);
-  Py_XDECREF(given);
+  PyObject* args[1 + most_given] = {PyObject_GenericGetAttr(owner, handle_name)};
+  const Py_ssize_t num_given = value == nullptr ? PyTuple_GET_SIZE(form.given) : 1;
+  Py_ssize_t count = 1;
+  for (; args[count - 1] != nullptr && count <= num_given; ++count)
+    args[count] = value == nullptr ? resolve(owner, PyTuple_GET_ITEM(form.given, count - 1)) : Py_NewRef(value);
+  const bool has_all = args[count - 1] != nullptr;
+  PyObject* result
+      = has_all ? PyObject_VectorcallMethod(form.name, args, static_cast<std::size_t>(count), nullptr) : nullptr;
+  for (PyObject* arg : args)
+    Py_XDECREF(arg);
   return result;
 }
 
@@ -81,6 +90,10 @@ PyObject* make(PyTypeObject* type, PyObject* args, PyObject*)
   PyObject* method = nullptr;
   if (!PyArg_ParseTuple(args, "O!", &PyFunction_Type, &method))
     return nullptr;
+  PyObject* attributes = reinterpret_cast<PyFunctionObject*>(method)->func_dict;
+  PyObject* given = attributes == nullptr ? nullptr : PyDict_GetItemString(attributes, "forwards");
+  if (given != nullptr && (!PyTuple_Check(given) || PyTuple_GET_SIZE(given) > most_given))
+    return PyErr_Format(PyExc_TypeError, "what a method forwards is a tuple of at most %zd, not %R", most_given, given);
   auto* made = PyObject_New(LongForm, type);
   if (made == nullptr)
     return nullptr;
@@ -88,8 +101,7 @@ PyObject* make(PyTypeObject* type, PyObject* args, PyObject*)
   made->name = Py_NewRef(reinterpret_cast<PyFunctionObject*>(method)->func_name);
   PyUnicode_InternInPlace(&made->name); // so that the cache of look-ups knows it
   made->method = Py_NewRef(method);
-  PyObject* attributes = reinterpret_cast<PyFunctionObject*>(method)->func_dict;
-  made->given = attributes == nullptr ? nullptr : Py_XNewRef(PyDict_GetItemString(attributes, "forwards"));
+  made->given = Py_XNewRef(given);
   return reinterpret_cast<PyObject*>(made);
 }
 
