@@ -32,6 +32,29 @@ struct RevealContacts
 };
 template struct RevealContacts<&CollisionResult::mContacts>;
 
+struct NodeMembers : dart::dynamics::Node
+{
+  static constexpr auto body = &NodeMembers::mBodyNode;
+};
+
+/// Null for what is no shape of a body.
+const dart::dynamics::BodyNode* body_of(const dart::collision::CollisionObject& object)
+{
+  const auto* node = object.getShapeFrame()->asShapeNode();
+  return node == nullptr ? nullptr : node->*NodeMembers::body;
+}
+
+struct BodyMembers : dart::dynamics::BodyNode
+{
+  static constexpr auto skeleton = &BodyMembers::mSkeleton;
+};
+
+bool is_in(const dart::dynamics::BodyNode& body, const dart::dynamics::ConstSkeletonPtr& skeleton)
+{
+  const auto& its = body.*BodyMembers::skeleton;
+  return !its.owner_before(skeleton) && !skeleton.owner_before(its);
+}
+
 } // namespace
 
 std::vector<dart::collision::Contact>& contacts_of(CollisionResult& result)
@@ -49,27 +72,35 @@ bool may_collide(const BitsOfBodies& bits, const dart::dynamics::BodyNode& a, co
   return (first.mask & second.group) != 0 && (second.mask & first.group) != 0;
 }
 
-bool BitsFilter::ignoresCollision(
+bool BodyFilter::ignoresCollision(
     const dart::collision::CollisionObject* object1, const dart::collision::CollisionObject* object2) const
 {
-  const auto body = [](const dart::collision::CollisionObject* object) {
-    const auto* node = object->getShapeFrame()->asShapeNode();
-    return node == nullptr ? nullptr : node->getBodyNodePtr().get();
-  };
-  const auto *a = body(object1), *b = body(object2);
-  return (a != nullptr && b != nullptr && !may_collide(bits_, *a, *b))
-         || BodyNodeCollisionFilter::ignoresCollision(object1, object2);
+  const auto *a = body_of(*object1), *b = body_of(*object2);
+  if (a == nullptr || b == nullptr)
+    return BodyNodeCollisionFilter::ignoresCollision(object1, object2);
+  if (!bits_.empty() && !may_collide(bits_, *a, *b))
+    return true;
+  const auto skeleton = a->getSkeleton();
+  if (is_in(*b, skeleton)) {
+    if (!skeleton->isEnabledSelfCollisionCheck())
+      return true;
+  } else if (
+      a->isCollidable() && b->isCollidable() && !ignored_pairs(*this).contains(a, b)
+      && (skeleton->isMobile() || b->getSkeleton()->isMobile())) {
+    return false;
+  }
+  return BodyNodeCollisionFilter::ignoresCollision(object1, object2);
 }
 
 PairFilter::PairFilter(const dart::collision::CollisionFilter* filter) : none_(filter == nullptr)
 {
   if (none_)
     return;
-  const bool has_bits = typeid(*filter) == typeid(BitsFilter);
-  if (has_bits || typeid(*filter) == typeid(BodyNodeCollisionFilter))
+  const bool is_ours = typeid(*filter) == typeid(BodyFilter);
+  if (is_ours || typeid(*filter) == typeid(BodyNodeCollisionFilter))
     ignored_ = &ignored_pairs(static_cast<const BodyNodeCollisionFilter&>(*filter));
-  if (has_bits)
-    bits_ = &static_cast<const BitsFilter&>(*filter).bits();
+  if (is_ours && !static_cast<const BodyFilter&>(*filter).bits().empty())
+    bits_ = &static_cast<const BodyFilter&>(*filter).bits();
 }
 
 bool PairFilter::surely_collide(const dart::dynamics::BodyNode& a, const dart::dynamics::BodyNode& b) const

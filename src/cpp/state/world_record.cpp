@@ -84,6 +84,7 @@ WorldRecord::WorldRecord(int id, dart::simulation::WorldPtr world, std::string s
 {
   replace_detector(*this->world->getConstraintSolver());
   install_solver(*this->world, default_solver());
+  apply_collision_filter(*this);
   for (std::size_t i = 0; i < this->world->getNumSkeletons(); ++i)
     skeletons.push_back(std::make_shared<SkeletonRecord>(SkeletonRecord{this->world->getSkeleton(i), {}, false, false, static_cast<int>(i)}));
 }
@@ -183,9 +184,7 @@ void WorldRecord::refuse(State seen) const
 
 void apply_collision_filter(WorldRecord& world)
 {
-  using Filter = dart::collision::BodyNodeCollisionFilter;
-  const auto filter = world.collision_bits.empty() ? std::make_shared<Filter>()
-                                                   : std::make_shared<engine::BitsFilter>(world.collision_bits);
+  const auto filter = std::make_shared<engine::BodyFilter>(world.collision_bits);
   for (const auto& [body1, body2] : world.ignored_pairs)
     filter->addBodyNodePairToBlackList(body1, body2);
   world.world->getConstraintSolver()->getCollisionOption().collisionFilter = filter;
