@@ -17,6 +17,7 @@ from pydart2.dynamics import Dynamics
 from pydart2.errors import DestroyedError
 from pydart2.exporting.methods import SavedSkeleton
 from pydart2.inverse_kinematics import IKResult, Target, solve
+from pydart2.multibody.structure import PARTS
 from pydart2.simulation.up import is_z_up
 from pydart2.state import part_of
 from pydart2.targets import TargetControl
@@ -27,9 +28,7 @@ if TYPE_CHECKING:
     from pydart2.world import World
 
 _log = logging.getLogger("pydart2")
-# What build() makes.
-_PARTS = ("dofs", "joints", "bodynodes", "markers", "name_to_dof", "name_to_joint", "name_to_body", "names")
-_BUILT = frozenset(("world", "id", "_handle", "_pattern", *_PARTS))
+_MADE_ANEW = ("world", "id", "_handle", *PARTS)  # in a copy
 
 
 class HasCompute(Protocol):
@@ -116,11 +115,11 @@ class Skeleton(Dynamics, TargetControl, ShortForms, SavedSkeleton, Assignable):
         skel = cls.__new__(cls)
         skel.world = world
         skel.id = index
-        skel.build()
+        skel._handle = world._handle.skeleton(index)
         return skel
 
     def __reduce__(self) -> tuple[object, ...]:
-        kept = {name: value for name, value in self.__dict__.items() if name not in _BUILT}
+        kept = {name: value for name, value in self.__dict__.items() if name not in _MADE_ANEW}
         return part_of, (self.world, "skeletons", self.id), {**kept, "_tau": np.array(self.forces())}
 
     def __setstate__(self, kept: dict[str, Any]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,11 @@ if TYPE_CHECKING:
     from pydart2.world import World
 
 
+#: The attributes of a skeleton that come from its tree.
+PARTS: tuple[str, ...] = ("dofs", "joints", "bodynodes", "markers", "names", "_pattern")
+PARTS += ("name_to_dof", "name_to_joint", "name_to_body")
+
+
 class Structure:
     """The part of Skeleton that knows its parts."""
 
@@ -34,6 +39,11 @@ class Structure:
     joints: list[Joint]
     bodynodes: list[BodyNode]
     markers: list[Marker]
+    name_to_dof: dict[str, Dof]
+    name_to_joint: dict[str, Joint]
+    name_to_body: dict[str, BodyNode]
+    names: Names
+    _pattern: SkelVector
     _handle: SkeletonHandle
 
     if TYPE_CHECKING:
@@ -43,10 +53,13 @@ class Structure:
 
     def build(self) -> None:
         """Look at the tree again: what is still there stays the same object, with its new index; the rest is made."""
-        skel = cast("Skeleton", self)
-        handle = self._handle = self.world._handle.skeleton(self.id)
-        joints: dict[str, Joint] = getattr(self, "name_to_joint", {})
-        bodies: dict[str, BodyNode] = getattr(self, "name_to_body", {})
+        self._handle = self.world._handle.skeleton(self.id)
+        self._look()
+
+    def _look(self) -> None:
+        skel, handle = cast("Skeleton", self), self._handle
+        joints: dict[str, Joint] = self.__dict__.get("name_to_joint", {})
+        bodies: dict[str, BodyNode] = self.__dict__.get("name_to_body", {})
         dofs = {dof.name: dof for joint in joints.values() for dof in joint.dofs if dof.joint is joint}
         self.joints = [kept(joints, create_joint(skel, i)) for i in range(handle.num_joints())]
         still = set(map(id, self.joints))
@@ -181,3 +194,23 @@ class Structure:
     def _place(self, where: NDArray[np.float64]) -> None:
         """Put the root link there, shape (4, 4), m; a root that floats is there after a reset, too."""
         self.root_bodynode().parent_joint._handle.place(where)
+
+
+class _Unseen:
+    """Stands for an attribute of PARTS in a skeleton that has not looked at its tree: the first one asked for makes it.
+
+    So a batch of a thousand copies of a world makes the parts of one.
+    """
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __get__(self, skel: Structure | None, cls: type | None = None) -> Any:
+        if skel is None:
+            return self
+        skel._look()
+        return skel.__dict__[self._name]
+
+
+for _name in PARTS:
+    setattr(Structure, _name, _Unseen(_name))

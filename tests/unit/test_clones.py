@@ -27,6 +27,7 @@ from physics.models import (
     sphere,
 )
 from physics.moving import DETECTORS, MODELS, bits, moving
+from pydart2.multibody.structure import PARTS
 from pydart2.state import model_hash
 
 Changed = Callable[[pydart2.World], None]
@@ -320,6 +321,20 @@ def test_subclasses_controllers_and_references(tmp_path: Path) -> None:
         state = task.snapshot()
         equal(task, clone)
         task.restore(state)
+
+
+def test_a_copy_looks_at_its_trees_when_it_is_asked(tmp_path: Path) -> None:
+    """A skeleton that others before it have left by then is still itself; one that is gone has nothing to look at."""
+    world = make_world(tmp_path, arm(), floor(), creature())
+    names = [body.name for body in world.skeletons[2].bodynodes]
+    for clone in copies(world):
+        gone, _, last = clone.skeletons
+        assert not any(part in vars(skel) for skel in clone.skeletons for part in PARTS)
+        clone.remove_skeleton(gone)
+        assert [body.name for body in last.bodynodes] == names and last.bodynodes[0].world is clone
+        assert last.q.skel is last and all(part in vars(last) for part in PARTS)
+        with pytest.raises(pydart2.DestroyedError):
+            gone.body(0)
 
 
 def test_a_part_brings_its_world(tmp_path: Path) -> None:

@@ -213,3 +213,12 @@ def test_a_body_with_a_muscle_stays(limb: MusculoSkeleton) -> None:
 def test_a_file_has_no_muscles(limb: MusculoSkeleton) -> None:
     with pytest.raises(ExportError, match=r"muscles \('front', 'back'\)"):
         limb.to_skel(strict=True)
+
+
+def test_a_clone_has_muscles_of_its_own(limb: MusculoSkeleton) -> None:
+    copy = limb.world.clone().skeletons[0]
+    assert isinstance(copy, MusculoSkeleton)
+    assert all(point.body in copy.bodynodes for _, route in copy.muscles for point in route.points)
+    for skel in (limb, copy):
+        contract(skel, 20)
+    assert limb.q.tobytes() == copy.q.tobytes()
