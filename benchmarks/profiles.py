@@ -180,7 +180,7 @@ def main() -> None:
     print(table(["robots", "µs", *columns()], rows_of(MANY, room_of)))
     print(
         "\nThe dynamics of a robot are the same in each row: what they take more of many is, most likely, the wait\n"
-        "for memory that no longer fits into the caches. A copy makes the engine's objects, and Python's, one by one."
+        "for memory that no longer fits into the caches. A copy makes the engine's objects one by one."
     )
     print("\nThe limp human after 1.5 s, when it lies; the rows of `iterative` are also swept.\n")
     print(table(["human", "µs", *columns()], rows_of(tuple(HUMANS), room_of)))
