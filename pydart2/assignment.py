@@ -6,7 +6,7 @@ import inspect
 import logging
 from collections.abc import Callable, Iterator
 from functools import cache
-from typing import Any, ClassVar, NoReturn
+from typing import Any, ClassVar
 
 from pydart2._native import LookedAt
 from pydart2.habits import answer, here
@@ -49,8 +49,8 @@ class Assignable(LookedAt):
             if callable(value):  # of which the short names have to hear
                 setattr(self, name, value)
 
-    def _raise_missing(self, name: str) -> NoReturn:
-        """Raises the AttributeError of a name that is not there; with an object in it Python would guess too."""
+    def _missing(self, name: str) -> Any:
+        """What a name is that is not there: an AttributeError; with an object in it Python would guess too."""
         cls: type = type(self)
         raise AttributeError(answer(cls, name), name=name, obj=None)
 

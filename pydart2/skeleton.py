@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from pydart2.world import World
 
 _log = logging.getLogger("pydart2")
-_MADE_ANEW = ("world", "id", "_handle", *PARTS)  # in a copy
+_MADE_ANEW = ("world", "id", "_handle", "names", "_pattern", *PARTS)  # in a copy
 
 
 class HasCompute(Protocol):
@@ -116,7 +116,15 @@ class Skeleton(Dynamics, TargetControl, ShortForms, SavedSkeleton, Assignable):
         skel.world = world
         skel.id = index
         skel._handle = world._handle.skeleton(index)
+        skel._name_dofs(skel._handle.dof(i).name() for i in range(skel._handle.num_dofs()))
         return skel
+
+    def _missing(self, name: str) -> Any:
+        """One that was made again looks at its tree when it is asked for a part: of a batch only the first one is."""
+        if name not in PARTS or "_handle" not in vars(self):
+            return super()._missing(name)
+        self._look()
+        return vars(self)[name]
 
     def __reduce__(self) -> tuple[object, ...]:
         kept = {name: value for name, value in self.__dict__.items() if name not in _MADE_ANEW}

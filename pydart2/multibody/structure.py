@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,9 +25,8 @@ if TYPE_CHECKING:
     from pydart2.world import World
 
 
-#: The attributes of a skeleton that come from its tree.
-PARTS: tuple[str, ...] = ("dofs", "joints", "bodynodes", "markers", "names", "_pattern")
-PARTS += ("name_to_dof", "name_to_joint", "name_to_body")
+#: The attributes that a skeleton has when it has looked at its tree.
+PARTS: tuple[str, ...] = ("dofs", "joints", "bodynodes", "markers", "name_to_dof", "name_to_joint", "name_to_body")
 
 
 class Structure:
@@ -39,11 +38,6 @@ class Structure:
     joints: list[Joint]
     bodynodes: list[BodyNode]
     markers: list[Marker]
-    name_to_dof: dict[str, Dof]
-    name_to_joint: dict[str, Joint]
-    name_to_body: dict[str, BodyNode]
-    names: Names
-    _pattern: SkelVector
     _handle: SkeletonHandle
 
     if TYPE_CHECKING:
@@ -83,7 +77,6 @@ class Structure:
 
     def _refresh_names(self) -> None:
         """Read the names of all joints and dofs again: renaming one may change others."""
-        skel = cast("Skeleton", self)
         for dof in self.dofs:
             dof.name = dof._handle.name()
         for joint in self.joints:
@@ -91,13 +84,17 @@ class Structure:
         self.name_to_dof = {dof.name: dof for dof in self.dofs}
         self.name_to_joint = {joint.name: joint for joint in self.joints}
         self.name_to_body = {body.name: body for body in self.bodynodes}
-        self.names = Names([dof.name for dof in self.dofs], skel)
-        self._pattern = SkelVector(np.zeros(len(self.dofs)), skel)
+        self._name_dofs(dof.name for dof in self.dofs)
+
+    def _name_dofs(self, names: Iterable[str]) -> None:
+        skel = cast("Skeleton", self)
+        self.names = Names(names, skel)
+        self._pattern = SkelVector(np.zeros(len(self.names)), skel)
         self._pattern.flags.writeable = False  # what says to the C++ layer: a new vector like this one
 
     def num_dofs(self) -> int:
         """How many dofs there are."""
-        return len(self.dofs)
+        return len(self.names)
 
     ndofs = Alias(num_dofs)
 
@@ -194,23 +191,3 @@ class Structure:
     def _place(self, where: NDArray[np.float64]) -> None:
         """Put the root link there, shape (4, 4), m; a root that floats is there after a reset, too."""
         self.root_bodynode().parent_joint._handle.place(where)
-
-
-class _Unseen:
-    """Stands for an attribute of PARTS in a skeleton that has not looked at its tree: the first one asked for makes it.
-
-    So a batch of a thousand copies of a world makes the parts of one.
-    """
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-
-    def __get__(self, skel: Structure | None, cls: type | None = None) -> Any:
-        if skel is None:
-            return self
-        skel._look()
-        return skel.__dict__[self._name]
-
-
-for _name in PARTS:
-    setattr(Structure, _name, _Unseen(_name))

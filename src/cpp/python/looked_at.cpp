@@ -57,7 +57,7 @@ PyObject* make_type()
   called_names = PySet_New(nullptr);
   unlooked_name = PyUnicode_InternFromString("_unlooked");
   ask_name = PyUnicode_InternFromString("_is_taken");
-  missing_name = PyUnicode_InternFromString("_raise_missing");
+  missing_name = PyUnicode_InternFromString("_missing");
   PyType_Slot slots[] = {
       {Py_tp_getattro, reinterpret_cast<void*>(get)},
       {Py_tp_setattro, reinterpret_cast<void*>(set)},
