@@ -97,7 +97,7 @@ void renew_fcl(ConstraintSolver& solver, bool shapes_changed)
     return use_detector(solver, solver.getCollisionDetector());
   }
   group->update();
-  GroupMembers::put_in_again(*group);
+  FclDetector::put_in_again(*group);
 }
 
 } // namespace

@@ -268,6 +268,16 @@ class Group : public FCLCollisionGroup
 public:
   using FCLCollisionGroup::FCLCollisionGroup;
 
+  /// The old tree goes before they are placed, for it would be fitted to where they are and balanced.
+  void put_in_again()
+  {
+    removeAllCollisionObjectsFromEngine();
+    for (const auto& info : mObjectInfoList)
+      static_cast<Object&>(*info->mObject).place();
+    for (const auto& info : mObjectInfoList)
+      addCollisionObjectToEngine(info->mObject.get());
+  }
+
 protected:
   void removeAllCollisionObjectsFromEngine() override
   {
@@ -340,6 +350,11 @@ bool FclDetector::collide(CollisionGroup* group, const CollisionOption& option, 
   if (result != nullptr && getPrimitiveShapeType() == PRIMITIVE)
     turn_back(*result);
   return any;
+}
+
+void FclDetector::put_in_again(CollisionGroup& group)
+{
+  dynamic_cast<Group&>(group).put_in_again();
 }
 
 std::unique_ptr<CollisionObject> FclDetector::createCollisionObject(const ShapeFrame* frame)

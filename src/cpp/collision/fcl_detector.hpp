@@ -26,6 +26,9 @@ public:
       dart::collision::CollisionGroup* group, const dart::collision::CollisionOption& option,
       dart::collision::CollisionResult* result) override;
 
+  /// Makes the tree of a group's objects as for a new group: where they are now, one after the other.
+  static void put_in_again(dart::collision::CollisionGroup& group);
+
   /// Whether the trees of soft bodies are made of their points at rest and not, as by the engine, where they are then: a
   /// copy and what it was copied from need the same trees from there on.
   bool soft_at_rest = false;

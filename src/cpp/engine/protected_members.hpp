@@ -22,19 +22,10 @@ struct SolverMembers : dart::constraint::ConstraintSolver
   static auto& group_of(ConstraintSolver& solver) { return solver.*(&SolverMembers::mCollisionGroup); }
 };
 
-/// A group's objects, which its detector's own library has in an order or a tree that comes of earlier steps.
+/// What each of a group's objects has in its detector's own library, and the tree of them there.
 struct GroupMembers : dart::collision::CollisionGroup
 {
   static void update_engine_data(CollisionGroup& group) { (group.*(&GroupMembers::updateEngineData))(); }
-
-  /// As for a new group: where they are now, one after the other.
-  static void put_in_again(CollisionGroup& group)
-  {
-    update_engine_data(group);
-    (group.*(&GroupMembers::removeAllCollisionObjectsFromEngine))();
-    for (const auto& info : group.*(&GroupMembers::mObjectInfoList))
-      (group.*(&GroupMembers::addCollisionObjectToEngine))(info->mObject.get());
-  }
 };
 
 /// What hangs on a frame. A node that is removed from its body still does, for as long as somebody holds it.

@@ -155,7 +155,7 @@ std::vector<double> state_of(WorldRecord& record)
   archive.numbers.insert(archive.numbers.end(), sleep.begin(), sleep.end());
   const auto memory = fast_solver(*record.world).memory();
   archive.numbers.insert(archive.numbers.end(), memory.begin(), memory.end());
-  return archive.numbers;
+  return std::move(archive.numbers);
 }
 
 void restore_state(WorldRecord& record, const std::vector<double>& saved)
