@@ -23,7 +23,7 @@ FALL = 100  # steps
 LYING = 1500  # steps
 CPP = ROOT / "src" / "cpp"
 SCENES = ("cubes", "chain", "fullbody1", "softBodies", "Atlas", "PR2", "Atlas with meshes")
-MANY = ("Atlas × 1", "Atlas × 16", "Atlas × 256", "Atlas × 256, FCL", "clone of 64")
+MANY = ("Atlas × 1", "Atlas × 16", "Atlas × 256", "Atlas × 256, FCL", "snapshot of 64", "clone of 64")
 #: Detector and solver.
 HUMANS = {"native, iterative": ("native", "iterative"), "Bullet": ("bullet", "fast"), "FCL": ("fcl", "fast")}
 #: Of a library's name, and of a function's. The first that is found.
@@ -78,7 +78,7 @@ def maker(name: str) -> Callable[[], int]:
     """A function that steps, and says how many steps (of robots) those were."""
     sys.path.insert(0, str(PLAYERS))
     from ours import Model
-    from robots import COPIED, robots
+    from robots import robots
 
     if name.startswith("Atlas ×"):
         count = int(re.findall(r"\d+", name)[0])
@@ -91,15 +91,16 @@ def maker(name: str) -> Callable[[], int]:
             return FALL * count
 
         return step
-    if name.startswith("clone"):
-        world = robots(COPIED, "fcl")
+    method, _, copied = name.partition(" of ")
+    if copied:
+        world = robots(int(copied), "fcl")
         world.step(3)
 
-        def clone() -> int:
-            world.clone()
-            return COPIED
+        def copy() -> int:
+            getattr(world, method)()
+            return int(copied)
 
-        return clone
+        return copy
     if name in HUMANS:
         from rollouts import human
 
@@ -176,11 +177,14 @@ def main() -> None:
         "operations: the states have its bits. Its objects: soft bodies' points, the flags that say what is out of\n"
         "date, what it asks of every shape in a step."
     )
-    print("\nAtlas apart without contact, with the native detector: of a robot and step, and of a robot's copy.\n")
+    print(
+        "\nAtlas apart without contact, with the native detector: of a robot and step, of its snapshot, of its copy.\n"
+    )
     print(table(["robots", "µs", *columns()], rows_of(MANY, room_of)))
     print(
         "\nThe dynamics of a robot are the same in each row: what they take more of many is, most likely, the wait\n"
-        "for memory that no longer fits into the caches. A copy makes the engine's objects one by one."
+        "for memory that no longer fits into the caches. A snapshot puts every shape into FCL's tree again,\n"
+        "and a copy makes the engine's objects, one by one."
     )
     print("\nThe limp human after 1.5 s, when it lies; the rows of `iterative` are also swept.\n")
     print(table(["human", "µs", *columns()], rows_of(tuple(HUMANS), room_of)))
