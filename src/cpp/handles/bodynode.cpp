@@ -3,8 +3,7 @@
 #include <dart/dynamics/SoftBodyNode.hpp>
 
 #include "base/checks.hpp"
-#include "dynamics/tree_dynamics.hpp"
-#include "engine/tree_members.hpp"
+#include "handles/motion.hpp"
 
 namespace pydart2 {
 
@@ -206,28 +205,17 @@ bool BodyNodeHandle::set_restitution_coeff(double coefficient)
   return each_contact_shape(*body_, [&](auto& aspect) { aspect.setRestitutionCoeff(coefficient); });
 }
 
-TreeDynamics* BodyNodeHandle::mover() const
-{
-  const auto& skeleton = *body_.skeleton;
-  const bool is_ours = body_.world->dynamics == Dynamics::fast && skeleton.dynamics_structure == skeleton.structure;
-  return is_ours ? skeleton.made_dynamics.get() : nullptr;
-}
-
 BodyNode& BodyNodeHandle::posed() const
 {
   BodyNode& body = *body_;
-  auto* ours = body.*engine::EntityMembers::transform_dirty ? mover() : nullptr;
-  if (ours != nullptr)
-    ours->find_pose(body);
+  find_pose(*body_.world, *body_.skeleton, body);
   return body;
 }
 
 BodyNode& BodyNodeHandle::moving() const
 {
   BodyNode& body = posed();
-  auto* ours = body.*engine::EntityMembers::velocity_dirty ? mover() : nullptr;
-  if (ours != nullptr)
-    ours->find_velocity(body);
+  find_velocity(*body_.world, *body_.skeleton, body);
   return body;
 }
 

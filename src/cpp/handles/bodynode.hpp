@@ -109,11 +109,9 @@ public:
   dart::dynamics::BodyNode& body() const { return *body_; }
 
 private:
-  /// The body, whose pose, or pose and velocity, the code that moves the skeleton has brought up to date: the engine needs
-  /// longer.
+  /// The body with its pose, or pose and velocity, up to date.
   dart::dynamics::BodyNode& posed() const;
   dart::dynamics::BodyNode& moving() const;
-  TreeDynamics* mover() const; ///< Null for the engine, and before the first step.
 
   template <class Columns>
   void write(const dart::dynamics::BodyNode& body, const Columns& dependent, bool full, Output& out) const;

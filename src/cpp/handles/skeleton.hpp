@@ -155,6 +155,7 @@ private:
   const std::vector<dart::dynamics::DegreeOfFreedom*>& dofs() const { return skeleton().getDofs(); }
   const std::vector<dart::dynamics::DegreeOfFreedom*>& dofs() { return skeleton().getDofs(); }
   dart::dynamics::Skeleton& with_mass() const;
+  const dart::dynamics::Skeleton& moving() const; ///< With mass, and poses and velocities up to date.
   void forget_root_armature(); ///< The joint goes.
   void check_root_can_change(const char* what) const;
   void check_tree_can_change(const char* what) const;

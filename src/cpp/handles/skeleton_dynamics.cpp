@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "handles/motion.hpp"
 #include "handles/skeleton.hpp"
 
 namespace pydart2 {
@@ -79,18 +80,30 @@ dart::dynamics::Skeleton& SkeletonHandle::with_mass() const
   return skeleton;
 }
 
+const dart::dynamics::Skeleton& SkeletonHandle::moving() const
+{
+  const auto& skel = with_mass();
+  for (const auto* body : skel.getBodyNodes()) {
+    find_pose(*skeleton_.world, *skeleton_.skeleton, *body);
+    find_velocity(*skeleton_.world, *skeleton_.skeleton, *body);
+  }
+  return skel;
+}
+
 void SkeletonHandle::com(Output& into) const
 {
   const auto& skel = with_mass();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(); // as Skeleton::getCOM(), which copies the transform of each body twice
-  for (const auto* body : skel.getBodyNodes())
+  for (const auto* body : skel.getBodyNodes()) {
+    find_pose(*skeleton_.world, *skeleton_.skeleton, *body);
     sum += body->getMass() * (body->getWorldTransform() * body->getLocalCOM());
+  }
   vector(into, 3) = sum / skel.getMass();
 }
 
 Eigen::Vector3d SkeletonHandle::com_velocity() const
 {
-  return with_mass().getCOMLinearVelocity();
+  return moving().getCOMLinearVelocity();
 }
 
 Eigen::Vector3d SkeletonHandle::com_acceleration() const
@@ -100,7 +113,7 @@ Eigen::Vector3d SkeletonHandle::com_acceleration() const
 
 Vector6d SkeletonHandle::com_spatial_velocity() const
 {
-  return with_mass().getCOMSpatialVelocity();
+  return moving().getCOMSpatialVelocity();
 }
 
 double SkeletonHandle::kinetic_energy() const
