@@ -1,4 +1,4 @@
-"""What a minute does to the energy: python benchmarks/integrators.py.
+"""What a minute does to the energy, and what a step takes: python benchmarks/integrators.py.
 
 Without damping or contact: the package's chain of ten links on ball joints from q = 0.3, a double pendulum of rods, and
 a body that tumbles about its middle axis. Beside each integrator of ours stand MuJoCo's, where it is installed
@@ -7,12 +7,13 @@ a body that tumbles about its middle axis. Beside each integrator of ours stand 
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
 
 import numpy as np
-from harness import table
+from harness import ROUNDS, Ratio, microseconds, table
 
 import pydart2
 
@@ -131,6 +132,26 @@ def their_energies(world: pydart2.World, integrator: str) -> Iterator[float]:
             yield np.inf
 
 
+def costs(steps: int = 400) -> str:
+    """CPU time of a step of the free chain, in turn, to one by the engine's rule."""
+    taken: dict[str, list[float]] = {name: [] for name in OURS}
+    for _ in range(ROUNDS):
+        for name in OURS:
+            world, _ = free_chain(STEPS[0])
+            world.set_integrator(name)
+            world.disable_recording()
+            world.step()
+            start = time.process_time()
+            world.step(steps)
+            taken[name].append((time.process_time() - start) / steps)
+    engine = taken["engine"]
+    ratios = [f"`{name}` {Ratio([t / e for t, e in zip(taken[name], engine, strict=True)])}" for name in OURS[1:]]
+    return (
+        f"A step of the free chain takes {microseconds(engine)} by the engine's rule; times as long by "
+        + f"{', '.join(ratios)}."
+    )
+
+
 SYSTEMS: dict[str, Callable[[float], tuple[pydart2.World, float]]] = {
     "free chain": free_chain,
     "double pendulum": double_pendulum,
@@ -157,6 +178,7 @@ def main() -> None:
         "of the body to its kinetic energy; or when it is a hundred times that.\n"
     )
     print(table(["step", "integrator", *SYSTEMS], rows))
+    print(f"\n{costs()}")
 
 
 if __name__ == "__main__":
