@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <dart/dynamics/PointMass.hpp>
 
+#include "engine/tree_members.hpp"
+
 namespace pydart2 {
 
 namespace {
@@ -173,9 +175,11 @@ void ConstraintMatrix::gather_readings()
     ends_[key] += ends_[key - 1];
   starts_ = ends_;
   const int columns = ends_.back();
-  directions_.resize(6, columns);
-  direction_rows_.resize(columns);
-  values_.resize(columns);
+  if (columns > directions_.cols()) {
+    directions_.resize(6, columns);
+    direction_rows_.resize(columns);
+    values_.resize(columns);
+  }
   each([this](int key, int row, const auto& direction) {
     const int column = ends_[key]++;
     directions_.col(column) = direction;
@@ -302,11 +306,11 @@ void ConstraintMatrix::apply(std::size_t constraint, const double* impulses) con
   for (const int side : {0, 1}) {
     if (item.bodies[side] == none)
       continue;
-    auto& body = *rows.bodies[side];
-    Eigen::Vector6d sum = body.getConstraintImpulse();
+    auto& impulse = rows.bodies[side]->*engine::BodyMembers::constraint_impulse;
+    Eigen::Vector6d sum = impulse;
     for (int row = 0; row < item.end - item.begin; ++row)
       sum += rows.directions[side].col(row) * impulses[row];
-    body.setConstraintImpulse(sum);
+    impulse = sum;
     trees_.skeleton(item.bodies[side]).setImpulseApplied(true);
   }
 }

@@ -52,30 +52,36 @@ void DirectContacts::read(dart::collision::CollisionResult& result)
     if (auto& contact = result.getContact(i); !(contact.penetrationDepth < 0.0) && !Contact::isZeroNormal(contact.normal))
       terms_.push_back(reader_.read(contact, nullptr));
   share_slip(terms_);
+  std::array<BodyNode*, 2> pair{};
+  std::array<const Body*, 2> bodies{};
   for (const auto& terms : terms_) {
-    const auto &a = look_at(*terms.bodies[0]), &b = look_at(*terms.bodies[1]);
-    if (a.reactive || b.reactive)
-      contacts_.push_back({terms, {&a, &b}, {}});
-    if (a.reactive && b.reactive)
-      forest_.join(a.skeleton, b.skeleton);
+    if (pair != terms.bodies) {
+      pair = terms.bodies;
+      bodies = {&look_at(*pair[0]), &look_at(*pair[1])};
+    }
+    if (bodies[0]->reactive || bodies[1]->reactive)
+      contacts_.push_back({terms, bodies, {}});
+    if (bodies[0]->reactive && bodies[1]->reactive)
+      forest_.join(bodies[0]->skeleton, bodies[1]->skeleton);
   }
 }
 
 const DirectContacts::Body& DirectContacts::look_at(const BodyNode& body)
 {
-  const auto [known, is_new] = bodies_.try_emplace(&body);
-  if (is_new)
-    known->second = {body.isReactive(), body.getSkeleton().get(), body.getWorldTransform().inverse()};
-  return known->second;
+  if (const auto* known = bodies_.find(&body))
+    return *known;
+  const auto& pose = body.getWorldTransform();
+  const Body made{body.isReactive(), body.getSkeleton().get(), &pose, pose.inverse(), &body.getSpatialVelocity()};
+  return bodies_.try_emplace(&body, made).first;
 }
 
 bool DirectContacts::group_with(const Constraints& constraints)
 {
   numbers_.clear();
-  std::size_t entry = 0;
+  std::size_t entry = 0, count = 0;
   const auto add = [&](const Skeleton* root) {
-    const std::size_t group = numbers_.try_emplace(root, numbers_.size()).first->second;
-    if (group == groups_.size())
+    const auto [group, is_new] = numbers_.try_emplace(root, count);
+    if (is_new && ++count > groups_.size())
       groups_.emplace_back();
     groups_[group].push_back(entry++);
   };
@@ -90,7 +96,7 @@ bool DirectContacts::group_with(const Constraints& constraints)
       return false;
     add(root);
   }
-  groups_.resize(numbers_.size());
+  groups_.resize(count);
   return true;
 }
 
@@ -109,14 +115,14 @@ void DirectContacts::read_rows(
     bodies.slip = {terms.slip[1], terms.slip[0]};
   }
   for (const std::size_t side : {0, 1}) {
-    const auto& pose = terms.bodies[side]->getWorldTransform();
+    const auto& body = *entry.bodies[side];
     Vector3d point;
-    point.noalias() = entry.bodies[side]->inverse * contact.point;
+    point.noalias() = body.inverse * contact.point;
     auto& directions = bodies.directions[side];
     directions.resize(6, dimension);
     for (int row = 0; row < dimension; ++row) {
       const Vector3d direction = row == 0 ? contact.normal : Vector3d(entry.tangents.col(row - 1));
-      put(pose, point, side == 0 ? direction : Vector3d(-direction), directions, row);
+      put(*body.pose, point, side == 0 ? direction : Vector3d(-direction), directions, row);
     }
   }
   for (int row = 0; row < dimension; ++row) {
@@ -126,7 +132,7 @@ void DirectContacts::read_rows(
     info.findex[row] = row == 0 ? -1 : 0;
     info.b[row] = 0.0;
     for (const std::size_t side : {0, 1})
-      info.b[row] -= bodies.directions[side].col(row).dot(terms.bodies[side]->getSpatialVelocity());
+      info.b[row] -= bodies.directions[side].col(row).dot(*entry.bodies[side]->velocity);
   }
   info.lo[0] = 0.0;
   info.hi[0] = std::numeric_limits<double>::infinity();

@@ -2,9 +2,9 @@
 
 #include <dart/collision/CollisionResult.hpp>
 #include <dart/constraint/ConstraintBase.hpp>
-#include <unordered_map>
 #include <vector>
 
+#include "base/lookup.hpp"
 #include "contact/contact_terms.hpp"
 #include "contact/skeleton_forest.hpp"
 #include "engine/engine_access.hpp"
@@ -44,7 +44,9 @@ private:
   {
     bool reactive;
     const dart::dynamics::Skeleton* skeleton;
-    Eigen::Isometry3d inverse;
+    const Eigen::Isometry3d* pose;
+    Eigen::Isometry3d inverse; ///< Of the pose.
+    const Eigen::Vector6d* velocity;
   };
 
   struct Entry
@@ -59,9 +61,9 @@ private:
   ContactReader reader_;
   std::vector<ContactTerms> terms_;
   std::vector<Entry> contacts_;
-  std::unordered_map<const dart::dynamics::BodyNode*, Body> bodies_;
+  Lookup<dart::dynamics::BodyNode, Body> bodies_;
   SkeletonForest forest_;
-  std::unordered_map<const dart::dynamics::Skeleton*, std::size_t> numbers_; ///< Of the groups, by their roots.
+  Lookup<dart::dynamics::Skeleton, std::size_t> numbers_; ///< Of the groups, by their roots.
   std::vector<std::vector<std::size_t>> groups_;
 };
 

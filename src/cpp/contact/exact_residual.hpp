@@ -15,14 +15,15 @@ public:
       const Matrix& A, const Eigen::VectorXd& b, const Eigen::VectorXd& lo, const Eigen::VectorXd& hi,
       const Eigen::VectorXi& findex);
 
-  const Matrix& matrix() const { return A_; }
+  /// The problem once more.
+  void give(Matrix& A, Eigen::VectorXd& b, Eigen::VectorXd& lo, Eigen::VectorXd& hi, Eigen::VectorXi& findex) const;
 
   /// The largest A_ii |x_i - P(x_i - w_i / A_ii)| over the rows, P the projection on the bounds.
-  double of(const Eigen::VectorXd& x) const;
+  double of(const Eigen::VectorXd& x);
 
 private:
   Matrix A_;
-  Eigen::VectorXd b_, lo_, hi_;
+  Eigen::VectorXd b_, lo_, hi_, w_;
   Eigen::VectorXi findex_;
 };
 

@@ -353,13 +353,8 @@ void FastConstraintSolver::solve_lcp(std::size_t group)
     }
   }
   const bool has_second = mSecondaryBoxedLcpSolver != nullptr;
-  if (has_second) { // the first solver overwrites its input
+  if (has_second) // the first solver overwrites its input
     mXBackup = mX;
-    mBBackup = mB;
-    mLoBackup = mLo;
-    mHiBackup = mHi;
-    mFIndexBackup = mFIndex;
-  }
   const bool ours = has_second && dynamic_cast<dart::constraint::DantzigBoxedLcpSolver*>(mBoxedLcpSolver.get()) != nullptr;
   const bool solved = ours ? dantzig_lcp_.solve(mA, mX, mB, mLo, mHi, mFIndex)
                            : mBoxedLcpSolver->solve(
@@ -375,18 +370,10 @@ void FastConstraintSolver::solve_lcp(std::size_t group)
 
 void FastConstraintSolver::solve_lcp_again()
 {
-  mA = problem_.matrix();
-  mSecondaryBoxedLcpSolver->solve(
-      static_cast<int>(mX.size()),
-      mA.data(),
-      mXBackup.data(),
-      mBBackup.data(),
-      0,
-      mLoBackup.data(),
-      mHiBackup.data(),
-      mFIndexBackup.data(),
-      false);
+  problem_.give(mA, mB, mLo, mHi, mFIndex);
   mX = mXBackup;
+  mSecondaryBoxedLcpSolver->solve(
+      static_cast<int>(mX.size()), mA.data(), mX.data(), mB.data(), 0, mLo.data(), mHi.data(), mFIndex.data(), false);
 }
 
 } // namespace pydart2

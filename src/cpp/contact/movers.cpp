@@ -43,8 +43,8 @@ Movers::Place Movers::add(BodyNode* body, int place_of_free)
     }
     return {mover, none};
   }
-  if (const auto known = places_.find(body); known != places_.end())
-    return known->second;
+  if (const auto* known = places_.find(body))
+    return *known;
   Place place;
   if (!body->isReactive()) {
     // stays where it is
@@ -55,14 +55,13 @@ Movers::Place Movers::add(BodyNode* body, int place_of_free)
   } else {
     place = add_to_trees(*body);
   }
-  places_.emplace(body, place);
-  return place;
+  return places_.try_emplace(body, place).first;
 }
 
 Movers::Place Movers::add_joint(BodyNode& body)
 {
-  const auto known = places_.find(&body);
-  return known != places_.end() ? known->second : places_.emplace(&body, add_to_trees(body)).first->second;
+  const auto* known = places_.find(&body);
+  return known != nullptr ? *known : places_.try_emplace(&body, add_to_trees(body)).first;
 }
 
 Movers::Place Movers::add_to_trees(BodyNode& node)

@@ -3,10 +3,9 @@
 #include <array>
 #include <dart/dynamics/FreeJoint.hpp>
 #include <deque>
-#include <memory_resource>
-#include <unordered_map>
 #include <vector>
 
+#include "base/lookup.hpp"
 #include "dynamics/free_bodies.hpp"
 #include "dynamics/tree_rows.hpp"
 
@@ -104,8 +103,7 @@ private:
   FreeBodies* free_ = nullptr;
   std::vector<int> of_free_; ///< The mover of each body in the array.
   std::deque<FreeBodies::Body> read_; ///< Other free bodies.
-  std::pmr::unsynchronized_pool_resource pool_; ///< From one step to the next.
-  std::pmr::unordered_map<const dart::dynamics::BodyNode*, Place> places_{&pool_};
+  Lookup<dart::dynamics::BodyNode, Place> places_;
   TreeImpulses trees_;
   TreeRows tree_rows_{trees_};
   std::vector<int> of_tree_; ///< Its mover.

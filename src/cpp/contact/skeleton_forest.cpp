@@ -8,16 +8,17 @@ void SkeletonForest::join(const Skeleton* a, const Skeleton* b)
 {
   if (a == b)
     return;
-  nodes_.try_emplace(a, Node{a, 1});
-  nodes_.try_emplace(b, Node{b, 1});
+  nodes_.try_emplace(a, {a, 1});
+  nodes_.try_emplace(b, {b, 1});
   a = shorten(a);
   b = shorten(b);
   if (a == b)
     return;
-  if (nodes_.at(a).size < nodes_.at(b).size)
-    std::swap(a, b);
-  nodes_.at(a).size += nodes_.at(b).size;
-  nodes_.at(b).above = a;
+  auto *above = nodes_.find(a), *below = nodes_.find(b);
+  if (above->size < below->size)
+    std::swap(above, below);
+  above->size += below->size;
+  below->above = above->above;
 }
 
 const SkeletonForest::Skeleton* SkeletonForest::root(const Skeleton* skeleton) const
@@ -31,7 +32,7 @@ const SkeletonForest::Skeleton* SkeletonForest::root(const Skeleton* skeleton) c
 const SkeletonForest::Skeleton* SkeletonForest::shorten(const Skeleton* skeleton)
 {
   while (above(skeleton) != skeleton)
-    skeleton = nodes_.at(skeleton).above = above(above(skeleton));
+    skeleton = nodes_.find(skeleton)->above = above(above(skeleton));
   return skeleton;
 }
 

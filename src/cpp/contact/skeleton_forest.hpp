@@ -1,7 +1,8 @@
 #pragma once
 
 #include <dart/dynamics/Skeleton.hpp>
-#include <unordered_map>
+
+#include "base/lookup.hpp"
 
 namespace pydart2 {
 
@@ -19,8 +20,8 @@ public:
   /// The skeleton itself if it is a root. Here the engine ends its search for the group of a joint's constraint.
   const Skeleton* above(const Skeleton* skeleton) const
   {
-    const auto node = nodes_.find(skeleton);
-    return node == nodes_.end() ? skeleton : node->second.above;
+    const auto* node = nodes_.find(skeleton);
+    return node == nullptr ? skeleton : node->above;
   }
 
 private:
@@ -32,7 +33,7 @@ private:
 
   const Skeleton* shorten(const Skeleton* skeleton);
 
-  std::unordered_map<const Skeleton*, Node> nodes_;
+  Lookup<Skeleton, Node> nodes_;
 };
 
 } // namespace pydart2

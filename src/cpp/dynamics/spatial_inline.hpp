@@ -29,6 +29,15 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
   return result;
 }
 
+/// The twist of a turn at the speed w in the frame at T, in the frame that T is relative to: dart::math::AdTAngular.
+[[gnu::always_inline]] inline Vector6 from_turning(const Eigen::Isometry3d& T, const Eigen::Vector3d& w)
+{
+  Vector6 result;
+  result.head<3>().noalias() = T.linear() * w;
+  result.tail<3>() = T.translation().cross(result.head<3>());
+  return result;
+}
+
 /// The cross product of two motions: dart::math::ad.
 [[gnu::always_inline]] inline Vector6 cross(const Vector6& v, const Vector6& m)
 {
@@ -75,6 +84,15 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
   if (angle < 1e-3)
     return Matrix::Identity() + S + 0.5 * S2;
   return Matrix::Identity() + (std::sin(angle) / angle) * S + ((1.0 - std::cos(angle)) / (angle * angle)) * S2;
+}
+
+/// The place by the rotation vector and the translation q, of a free joint: dart::dynamics::FreeJoint::convertToTransform.
+[[gnu::always_inline]] inline Eigen::Isometry3d placement(const Vector6& q)
+{
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear() = rotation(q.head<3>());
+  result.translation() = q.tail<3>();
+  return result;
 }
 
 /// The vector of a rotation: dart::math::logMap.

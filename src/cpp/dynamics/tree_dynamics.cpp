@@ -24,6 +24,17 @@ using namespace tree;
 
 namespace {
 
+/// To a joint's projected inertia; whether there are any.
+template <class Space>
+bool add_implicit_terms(const GenericJoint<Space>& joint, double dt, typename Space::Matrix& projected)
+{
+  const auto& terms = properties(joint);
+  const bool any = (terms.mDampingCoefficients.array() != 0.0).any() || (terms.mSpringStiffnesses.array() != 0.0).any();
+  if (any)
+    projected += (dt * terms.mDampingCoefficients + dt * dt * terms.mSpringStiffnesses).asDiagonal();
+  return any;
+}
+
 /// Once for all kinds of joints, so that what a step runs through stays in the processor's cache of instructions.
 [[gnu::noinline]] void add_inertia_to_parent(const Eigen::Isometry3d& T, const Matrix6& inertia, Matrix6& sum)
 {
@@ -69,6 +80,8 @@ bool TreeDynamics::add(BodyNode& body, Link* parent)
   const auto& type = typeid(joint);
   if (type == typeid(RevoluteJoint))
     link.axis = &static_cast<RevoluteJoint&>(joint).getAxis();
+  if (type == typeid(UniversalJoint))
+    link.universal = static_cast<UniversalJoint*>(&joint);
   if (type == typeid(RevoluteJoint) || type == typeid(PrismaticJoint) || type == typeid(ScrewJoint))
     link.kind = Kind::r1;
   else if (type == typeid(UniversalJoint) || type == typeid(TranslationalJoint2D))
@@ -95,9 +108,9 @@ bool TreeDynamics::add(BodyNode& body, Link* parent)
   return true;
 }
 
-bool TreeDynamics::may_share() const
+bool TreeDynamics::moves_on() const
 {
-  bool stale = fetch_ahead_ && moved_ && !pushed_off_;
+  bool stale = moved_ && !pushed_off_;
   for (std::size_t tree = 0; tree < skeleton_.getNumTrees() && stale; ++tree)
     stale = engine::SkeletonMembers::tree(skeleton_, tree).mArticulatedInertia;
   return stale;
@@ -110,7 +123,6 @@ void TreeDynamics::put_numbers(Numbers* shared)
   shared_ = shared;
   for (auto& link : links_) {
     BodyNode& body = *link->body;
-    link->articulated = shared == nullptr ? &(body.*Body::inertia) : &shared->inertia;
     link->articulated_implicit = shared == nullptr ? &(body.*Body::inertia_implicit) : &shared->inertia_implicit;
     link->transform = shared == nullptr ? &(link->joint->*JointOf::transform) : &shared->transform;
     link->partial_acceleration = shared == nullptr ? &(body.*Body::partial_acceleration) : &shared->partial_acceleration;
@@ -155,14 +167,15 @@ void TreeDynamics::fetch_numbers(std::size_t i) const
   fetch_flags(i);
 }
 
-void TreeDynamics::accelerate(bool share)
+void TreeDynamics::accelerate(bool may_leave)
 {
   const double dt = skeleton_.getTimeStep();
   const Eigen::Vector3d gravity = skeleton_.getGravity();
   thread_local std::vector<Numbers> numbers;
   if (numbers.size() < links_.size())
     numbers.resize(links_.size());
-  put_numbers(share && may_share() ? numbers.data() : nullptr);
+  const bool leave = may_leave && moves_on();
+  put_numbers(leave && fetch_ahead_ ? numbers.data() : nullptr);
   pushed_off_ = false;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     fetch_numbers(i + 1);
@@ -170,7 +183,7 @@ void TreeDynamics::accelerate(bool share)
     link.kinematic = is_kinematic(*link.joint);
     update_motion(link);
   }
-  update_inertias();
+  update_inertias(leave);
   for (auto link = links_.rbegin(); link != links_.rend(); ++link)
     update_bias_force(**link, gravity, dt);
   mark_accelerations();
@@ -214,6 +227,8 @@ void TreeDynamics::find_velocity(Link& link)
 [[gnu::flatten]] void TreeDynamics::update_motion(Link& link)
 {
   update_transform(link);
+  if (link.universal != nullptr)
+    update_universal(*link.universal);
   update_pose(link);
   link.unread = link.entity->*EntityOf::velocity_dirty;
   update_velocity(link);
@@ -276,20 +291,66 @@ void TreeDynamics::find_velocity(Link& link)
     put(turned);
     return;
   }
+  if (joint.*JointOf::transform_dirty && link.kind == Kind::se3) {
+    auto& free = static_cast<FreeJoint&>(joint);
+    put(free.*engine::FreeJointMembers::moved = spatial::placement(free.getPositionsStatic()));
+    return;
+  }
+  if (joint.*JointOf::transform_dirty && link.universal != nullptr) {
+    const auto& universal = *link.universal;
+    const auto& q = universal.getPositionsStatic();
+    *link.transform = joint.getTransformFromParentBodyNode() * Eigen::AngleAxisd(q[0], universal.getAxis1())
+                      * Eigen::AngleAxisd(q[1], universal.getAxis2()) * joint.getTransformFromChildBodyNode().inverse();
+    joint.*JointOf::transform_dirty = shared_ != nullptr;
+    return;
+  }
   const auto& T = joint.getRelativeTransform();
   if (shared_ != nullptr)
     *link.transform = T;
 }
 
+/// Its Jacobian and the rate of that, as the engine's UniversalJoint forms them.
+[[gnu::flatten]] void TreeDynamics::update_universal(UniversalJoint& joint)
+{
+  if (!(joint.*JointOf::jacobian_dirty || joint.*JointOf::jacobian_rate_dirty))
+    return;
+  const Eigen::Isometry3d& T = joint.getTransformFromChildBodyNode();
+  auto& J = joint.*Generic<dart::math::R2Space>::jacobian;
+  J.col(0) = spatial::from_turning(T * spatial::turn(-joint.getAxis2() * joint.getPositionsStatic()[1]), joint.getAxis1());
+  J.col(1) = spatial::from_turning(T, joint.getAxis2());
+  const Vector6 along = J.col(1) * joint.getVelocitiesStatic()[1];
+  (joint.*Generic<dart::math::R2Space>::jacobian_rate).col(0) = -spatial::cross(along, J.col(0));
+  joint.*JointOf::jacobian_dirty = joint.*JointOf::jacobian_rate_dirty = false;
+}
+
 /// The articulated inertias of the trees in which they are out of date.
-void TreeDynamics::update_inertias()
+void TreeDynamics::update_inertias(bool only_implicit)
 {
   const double dt = skeleton_.getTimeStep();
+  const auto update = only_implicit ? update_implicit_inertia : update_inertia;
   for (auto link = links_.rbegin(); link != links_.rend(); ++link)
     if (engine::SkeletonMembers::tree(skeleton_, (*link)->tree).mArticulatedInertia)
-      update_inertia(**link, dt);
+      update(**link, dt);
   for (std::size_t tree = 0; tree < skeleton_.getNumTrees(); ++tree)
-    engine::SkeletonMembers::tree(skeleton_, tree).mArticulatedInertia = shared_ != nullptr;
+    engine::SkeletonMembers::tree(skeleton_, tree).mArticulatedInertia = only_implicit;
+}
+
+/// The one with implicit damping and springs alone.
+[[gnu::flatten]] void TreeDynamics::update_implicit_inertia(Link& link, double dt)
+{
+  Matrix6& implicit = *link.articulated_implicit;
+  implicit = *link.inertia;
+  for (const Link* child : link.children)
+    add_child_inertia(*child, *child->articulated_implicit, true, implicit);
+  if (link.kinematic)
+    return;
+  visit(link, [&](auto& joint) {
+    using Space = SpaceOf<decltype(joint)>;
+    const auto& J = jacobian(joint, link.constant);
+    typename Space::Matrix projected = J.transpose() * implicit * J;
+    add_implicit_terms(joint, dt, projected);
+    joint.*Generic<Space>::inverse_inertia_implicit = inverse_inertia<Space>(projected);
+  });
 }
 
 /// Without and with implicit damping and springs; what is the same is formed once.
@@ -312,19 +373,13 @@ void TreeDynamics::update_inertias()
   visit(link, [&](auto& joint) {
     using Space = SpaceOf<decltype(joint)>;
     const auto& J = jacobian(joint, link.constant);
-    const auto& terms = properties(joint);
-    const bool own_terms = (terms.mDampingCoefficients.array() != 0.0).any() || (terms.mSpringStiffnesses.array() != 0.0).any();
     typename Space::Matrix projected = J.transpose() * plain * J;
     joint.*Generic<Space>::inverse_inertia = inverse_inertia<Space>(projected);
-    if (!link.implicit && !own_terms) {
-      joint.*Generic<Space>::inverse_inertia_implicit = joint.*Generic<Space>::inverse_inertia;
-      return;
-    }
     if (link.implicit)
       projected = J.transpose() * implicit * J;
-    projected += (dt * terms.mDampingCoefficients + dt * dt * terms.mSpringStiffnesses).asDiagonal();
-    joint.*Generic<Space>::inverse_inertia_implicit = inverse_inertia<Space>(projected);
-    link.implicit = true;
+    link.implicit |= add_implicit_terms(joint, dt, projected);
+    joint.*Generic<Space>::inverse_inertia_implicit
+        = link.implicit ? inverse_inertia<Space>(projected) : joint.*Generic<Space>::inverse_inertia;
   });
 }
 

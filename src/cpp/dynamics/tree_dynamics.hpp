@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <dart/dynamics/GenericJoint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
+#include <dart/dynamics/UniversalJoint.hpp>
 #include <memory>
 #include <vector>
 
@@ -18,8 +19,10 @@ namespace pydart2 {
 /// faster is what is left out: virtual calls, reference counts, one search through the tree for each joint that moves,
 /// assertions, and the second articulated inertia where neither damping nor springs make it another one.
 ///
-/// Where there are many skeletons, waiting for memory takes most of the time. What only serves a step on the way is then
-/// left in numbers that all skeletons share, and stays out of date in the engine, which forms it when it is asked for.
+/// A skeleton that moves and that no impulse acts on needs only the inertia with implicit damping and springs: the other one
+/// stays out of date in the engine, which forms it when it is asked for. Where there are many skeletons, waiting for memory
+/// takes most of the time. All that only serves such a step on the way is then left in numbers that all skeletons share, and
+/// out of date in the same way.
 ///
 /// Valid until the tree changes.
 class TreeDynamics
@@ -41,9 +44,10 @@ public:
   void keep_up(long changes);
 
   /// As Skeleton::computeForwardDynamics(), integrateVelocities(), computeImpulseForwardDynamics() and
-  /// integratePositions(). Only where integrate_velocities() comes next may accelerate() share numbers.
-  void accelerate(bool share = false);
-  void integrate_velocities(double dt);
+  /// integratePositions(). Only where integrate_velocities() comes next may accelerate() leave things out of date. Where the
+  /// bodies' velocities are asked for, that is done for all at once.
+  void accelerate(bool may_leave = false);
+  void integrate_velocities(double dt, bool asked_for = false);
   void apply_impulses();
   void integrate_positions(double dt);
 
@@ -69,7 +73,7 @@ private:
   /// Of a link, from one pass of a step to the next.
   struct Numbers
   {
-    Matrix6 inertia, inertia_implicit; ///< Articulated.
+    Matrix6 inertia_implicit;          ///< Articulated.
     Eigen::Isometry3d transform;       ///< Of the joint.
     Vector6 partial_acceleration, bias_force;
   };
@@ -87,13 +91,15 @@ private:
     const Matrix6* inertia;
     const Vector6* external_force;
     const Eigen::Vector3d* axis = nullptr; ///< Of a revolute joint.
-    bool constant = true;                  ///< The joint's Jacobian never changes.
-    std::vector<Link*> children;           ///< In the engine's order, in which their sums are formed.
+    dart::dynamics::UniversalJoint* universal = nullptr; ///< The joint, if it is one.
+    bool constant = true;        ///< The joint's Jacobian never changes.
+    std::vector<Link*> children; ///< In the engine's order, in which their sums are formed.
     std::vector<dart::dynamics::Entity*> others; ///< What else hangs on the body: shapes and markers.
     bool heard = true;                           ///< Somebody is told when those are out of date.
 
-    // Where those of Numbers are: the engine's, or shared ones.
     Matrix6* articulated;
+
+    // Where those of Numbers are: the engine's, or shared ones.
     Matrix6* articulated_implicit;
     Eigen::Isometry3d* transform;
     Vector6* partial_acceleration;
@@ -115,12 +121,14 @@ private:
 
   void update_motion(Link& link);
   void update_transform(Link& link);
+  static void update_universal(dart::dynamics::UniversalJoint& joint);
   static void update_pose(Link& link);
   void update_velocity(Link& link);
   void find_pose(Link& link);
   void find_velocity(Link& link);
-  void update_inertias();
-  void update_inertia(Link& link, double dt);
+  void update_inertias(bool only_implicit = false);
+  static void update_inertia(Link& link, double dt);
+  static void update_implicit_inertia(Link& link, double dt);
   static void add_child_inertia(const Link& child, const Matrix6& inertia, bool implicit, Matrix6& sum);
   static void update_bias_force(Link& link, const Eigen::Vector3d& gravity, double dt);
   static void add_child_bias_force(const Link& child, Vector6& sum);
@@ -133,8 +141,8 @@ private:
   static void update_bias_impulse(Link& link);
   static void update_velocity_change(Link& link, double dt);
 
-  /// Whether in the next pass numbers may be shared: where they are out of date by its end, and nothing was solved for.
-  bool may_share() const;
+  /// Whether what only serves the next pass on the way is out of date by its end anyway, and is not asked for then.
+  bool moves_on() const;
   void put_numbers(Numbers* shared);
 
   void mark_positions();

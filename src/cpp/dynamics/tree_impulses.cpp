@@ -45,7 +45,7 @@ int TreeImpulses::add(BodyNode& node)
   body.node = &node;
   body.parent = parent;
   body.tree = tree;
-  numbers_.emplace(&node, number);
+  numbers_.try_emplace(&node, number);
   return number;
 }
 

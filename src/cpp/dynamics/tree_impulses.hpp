@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/Skeleton.hpp>
-#include <memory_resource>
-#include <unordered_map>
 #include <variant>
 #include <vector>
+
+#include "base/lookup.hpp"
 
 namespace pydart2 {
 
@@ -40,8 +40,8 @@ public:
   /// Number of a body, `none` if it is not there.
   int find(const dart::dynamics::BodyNode* body) const
   {
-    const auto number = numbers_.find(body);
-    return number == numbers_.end() ? none : number->second;
+    const int* number = numbers_.find(body);
+    return number == nullptr ? none : *number;
   }
 
   /// Number of a body, which is added with its ancestors if it is new. Numbers grow from the root to the leaves.
@@ -139,8 +139,7 @@ private:
 
   std::vector<Body> bodies_;
   std::vector<Tree> trees_;
-  std::pmr::unsynchronized_pool_resource pool_; ///< From one step to the next.
-  std::pmr::unordered_map<const dart::dynamics::BodyNode*, int> numbers_{&pool_};
+  Lookup<dart::dynamics::BodyNode, int> numbers_;
 };
 
 } // namespace pydart2

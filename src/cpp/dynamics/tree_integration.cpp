@@ -11,8 +11,6 @@ namespace pydart2 {
 
 using namespace tree;
 
-// Free joints move by the engine's code, which goes through the tree where it finds that not all is marked.
-
 namespace {
 
 /// How a ball joint goes on.
@@ -23,25 +21,60 @@ namespace {
   return spatial::rotation_vector(spatial::rotation(q) * spatial::rotation(dq * dt));
 }
 
+/// A free joint's acceleration is spatial, and its linear velocity is to be that of the moved point: as
+/// FreeJoint::integrateVelocities() of Debian's engine. Whether anything has changed.
+[[gnu::flatten]] bool accelerate_free(GenericJoint<dart::math::SE3Space>& joint, double dt)
+{
+  auto& s = state(joint);
+  Vector6 acceleration = s.mAccelerations;
+  acceleration.tail<3>() += s.mVelocities.head<3>().cross(s.mVelocities.tail<3>());
+  const bool faster = assign<Vector6>(s.mVelocities, s.mVelocities + acceleration * dt);
+  acceleration.tail<3>() -= s.mVelocities.head<3>().cross(s.mVelocities.tail<3>());
+  return assign(s.mAccelerations, acceleration) || faster;
+}
+
+/// Velocity and acceleration turn into the axes of the moved body: as FreeJoint::integratePositions() of Debian's engine.
+/// Whether anything has changed.
+[[gnu::flatten]] bool move_free(GenericJoint<dart::math::SE3Space>& joint, double dt)
+{
+  auto& s = state(joint);
+  const Eigen::Isometry3d now = joint.*JointOf::transform_dirty
+                                    ? spatial::placement(s.mPositions)
+                                    : static_cast<FreeJoint&>(joint).*engine::FreeJointMembers::moved;
+  const Eigen::Isometry3d step = spatial::placement(s.mVelocities * dt), next = now * step;
+  const Eigen::Isometry3d back = step.inverse();
+  const auto turned_back = [&back](const Vector6& twist) {
+    Vector6 result;
+    result.head<3>().noalias() = back.linear() * twist.head<3>();
+    result.tail<3>().noalias() = back.linear() * twist.tail<3>();
+    return result;
+  };
+  Vector6 positions;
+  positions << spatial::rotation_vector(next.linear()), next.translation();
+  bool changed = assign(s.mVelocities, turned_back(s.mVelocities));
+  changed |= assign(s.mAccelerations, turned_back(s.mAccelerations));
+  return assign(s.mPositions, positions) || changed;
+}
+
 } // namespace
 
-void TreeDynamics::integrate_velocities(double dt)
+void TreeDynamics::integrate_velocities(double dt, bool asked_for)
 {
   bool changed = false;
   for (auto& link : links_)
     visit(*link, [&](auto& joint) {
-      using Vector = typename SpaceOf<decltype(joint)>::Vector;
+      using Space = SpaceOf<decltype(joint)>;
       auto& s = state(joint);
-      if (link->kind == Kind::se3)
-        changed |= (s.mVelocities.array() != 0.0).any() || (s.mAccelerations.array() != 0.0).any();
+      if constexpr (std::is_same_v<Space, dart::math::SE3Space>)
+        changed |= accelerate_free(joint, dt);
       else
-        changed |= assign<Vector>(s.mVelocities, s.mVelocities + s.mAccelerations * dt);
+        changed |= assign<typename Space::Vector>(s.mVelocities, s.mVelocities + s.mAccelerations * dt);
     });
   if (changed)
     mark_predicted_velocities();
-  for (auto& link : links_)
-    if (link->kind == Kind::se3)
-      (link->joint->*JointOf::integrate_velocities)(dt);
+  if (asked_for)
+    for (auto& link : links_)
+      update_velocity(*link);
 }
 
 void TreeDynamics::integrate_positions(double dt)
@@ -58,7 +91,7 @@ void TreeDynamics::integrate_positions(double dt)
       using Vector = typename Space::Vector;
       auto& s = state(joint);
       if constexpr (std::is_same_v<Space, dart::math::SE3Space>)
-        changed |= (s.mVelocities.array() != 0.0).any();
+        changed |= move_free(joint, dt);
       else if constexpr (std::is_same_v<Space, dart::math::SO3Space>)
         changed |= assign<Vector>(s.mPositions, turned(s.mPositions, s.mVelocities, dt));
       else
@@ -67,9 +100,6 @@ void TreeDynamics::integrate_positions(double dt)
   moved_ = changed;
   if (changed)
     mark_positions();
-  for (auto& link : links_)
-    if (link->kind == Kind::se3)
-      (link->joint->*JointOf::integrate_positions)(dt);
 }
 
 void TreeDynamics::look_at_forces(bool commands_at_rest)

@@ -2,6 +2,7 @@
 
 #include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/BodyNode.hpp>
+#include <dart/dynamics/FreeJoint.hpp>
 #include <dart/dynamics/GenericJoint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 
@@ -60,14 +61,17 @@ struct JointMembers : dart::dynamics::Joint
   static constexpr auto primary_acceleration_dirty = &JointMembers::mNeedPrimaryAccelerationUpdate;
   static constexpr auto jacobian_dirty = &JointMembers::mIsRelativeJacobianDirty;
   static constexpr auto jacobian_rate_dirty = &JointMembers::mIsRelativeJacobianTimeDerivDirty;
-  static constexpr auto integrate_positions = &JointMembers::integratePositions;
-  static constexpr auto integrate_velocities = &JointMembers::integrateVelocities;
   static constexpr auto add_impulse_terms = &JointMembers::updateConstrainedTerms;
 };
 
 struct BallJointMembers : dart::dynamics::BallJoint
 {
   static constexpr auto turned = &BallJointMembers::mR;
+};
+
+struct FreeJointMembers : dart::dynamics::FreeJoint
+{
+  static constexpr auto moved = &FreeJointMembers::mQ;
 };
 
 template <class Space>

@@ -37,9 +37,11 @@ constexpr std::pair<Joint::ActuatorType, const char*> actuators[] = {
     {Joint::LOCKED, "LOCKED"},
 };
 
-/// The engine does not see that the articulated inertia is another one until the robot moves.
+/// The engine does not see that the articulated inertia is another one until the robot moves. In M^-1 it goes on with what it
+/// has last formed of a joint whose motion is prescribed from then on: that of now.
 void use_actuator(Joint& joint, Joint::ActuatorType type)
 {
+  joint.getChildBodyNode()->getArticulatedInertia();
   joint.setActuatorType(type);
   joint.getChildBodyNode()->dirtyArticulatedInertia();
 }

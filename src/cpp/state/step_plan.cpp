@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/large_pages.hpp"
+#include "collision/native_detector.hpp"
 #include "contact/fast_solver.hpp"
 #include "state/world_record.hpp"
 
@@ -86,6 +87,7 @@ StepPlan& make_plan(WorldRecord& world)
       plan.stale = true;
   }
   plan.changed.clear();
+  plan.native = native_group(fast_solver(*world.world)) != nullptr;
   if (plan.stale)
     make_anew(world);
   if (!plan.same)

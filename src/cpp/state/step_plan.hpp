@@ -21,6 +21,7 @@ struct StepPlan
   std::vector<dart::dynamics::SkeletonPtr> other_skeletons;
   Jointed jointed; ///< Of them.
   bool rigid = true;     ///< No skeleton has a soft body.
+  bool native = false;   ///< The detector is the native one, which looks at the velocity of each shape.
   std::size_t begun = 0; ///< How many of the others are in this step, and have saved their states.
 
   bool stale = true;                    ///< Someone came, went, fell asleep or woke, or the world has changed.

@@ -88,7 +88,7 @@ void predict_mobile(const WorldRecord& record, SkeletonRecord& item, double end)
   if (has_integrator(record, item))
     prepare_integrator(record, item, dt);
   if (item.mover != nullptr)
-    item.mover->integrate_velocities(dt);
+    item.mover->integrate_velocities(dt, record.plan.native);
   else
     skeleton.integrateVelocities(dt);
   item.watch->check_velocities(end);
