@@ -6,25 +6,28 @@ import statistics
 import time
 from collections.abc import Callable
 
+import mujoco
 import mujoco.rollout
 import numpy as np
-from harness import ROUNDS, Ratio, met, table
+from harness import ROUNDS, Ratio, met, microseconds, table
 from ragdolls import add_ragdoll, place, theirs
 
 import pydart2
 
 WORLDS, THREADS, DT, STEPS = 32, 2, 0.001, 2000
 HEIGHT = 0.8  # m, of the pelvis: the feet are a hand's breadth above the ground
+FALL = 300  # steps
 TURNS = np.linspace(-0.4, 0.4, WORLDS)  # rad, to the side: no two fall alike
 
 
-def human(detector: str, solver: str, turn: float) -> pydart2.World:
+def human(detector: str, solver: str, turn: float, ground: bool = True) -> pydart2.World:
     """One of the worlds."""
     world = pydart2.World(DT, up="z")
     world.set_recording(False)
     world.set_collision_detector(detector)
     world.set_constraint_solver(solver)
-    world.add_ground(size=(200.0, 200.0))
+    if ground:
+        world.add_ground(size=(200.0, 200.0))
     add_ragdoll(world, "human", HEIGHT, turn)
     return world
 
@@ -62,6 +65,32 @@ def mujocos() -> Callable[[], float]:
     return run
 
 
+def in_the_air() -> tuple[list[float], list[float]]:
+    """CPU time of a step of one human that touches nothing, ours and MuJoCo's: the dynamics alone."""
+    world = human("native", "iterative", 0.0, ground=False)
+    start = world.states()
+    model, data = theirs(human("native", "iterative", 0.0))
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+    poses = data.qpos.copy()
+
+    def fall() -> None:
+        world.set_states(start)
+        world.step(FALL)
+
+    def fall_in_mujoco() -> None:
+        mujoco.mj_resetData(model, data)
+        data.qpos[:] = poses
+        mujoco.mj_step(model, data, FALL)
+
+    calls, times = (fall, fall_in_mujoco), ([], [])
+    for _ in range(5 * ROUNDS):
+        for call, mine in zip(calls, times, strict=True):
+            begin = time.thread_time()
+            call()
+            mine.append((time.thread_time() - begin) / FALL)
+    return times
+
+
 def main() -> None:
     """Steps per second by the clock on the wall, in turn: nothing else should run on the machine."""
     players = {
@@ -86,6 +115,12 @@ def main() -> None:
     print("## A limp human of 33 dofs beside `mujoco.rollout`\n")
     print(f"{WORLDS} worlds on {THREADS} threads, {STEPS} steps of {DT * 1e3:g} ms: they collapse, then lie.\n")
     print(table(["", "steps/s", "to MuJoCo", "bar", "highest pelvis in the end"], rows))
+    air, their_air = in_the_air()
+    ratio = Ratio([a / b for a, b in zip(air, their_air, strict=True)])
+    print(
+        f"\nA step of one human that touches nothing, native, iterative: {microseconds(air)}, in MuJoCo"
+        f" {microseconds(their_air)}; time to MuJoCo's {ratio}."
+    )
 
 
 if __name__ == "__main__":

@@ -4,8 +4,10 @@
 #include <dart/dynamics/ShapeNode.hpp>
 
 #include "base/errors.hpp"
+#include "base/fetch.hpp"
 #include "collision/native_pairs.hpp"
 #include "engine/collision_filter.hpp"
+#include "engine/tree_members.hpp"
 
 namespace pydart2::native {
 
@@ -50,7 +52,7 @@ void Scene::set_objects(const std::vector<Object*>& objects)
     if (!bounded)
       unbounded_.push_back(static_cast<int>(items_.size()));
     watched_.push_back(static_cast<int>(items_.size()));
-    items_.push_back({object, body, skeleton, place, bounded, {}, false, Pose::Identity(), true, Pose::Identity(), {}, {}, false, false});
+    items_.push_back({object, body, body, skeleton, place, bounded, {}, false, Pose::Identity(), true, Pose::Identity(), {}, {}, false, false});
     items_.back().pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN()); // equal to no pose
     items_.back().wide = nothing;
   }
@@ -112,8 +114,22 @@ void Scene::place()
     for (std::size_t i = 0; i < items_.size(); ++i)
       place(static_cast<int>(i));
   } else
-    for (const int index : watched_)
-      place(index);
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+      fetch_ahead(i + 2);
+      place(watched_[i]);
+    }
+}
+
+/// What place() reads of the i-th that is watched.
+void Scene::fetch_ahead(std::size_t i) const
+{
+  if (i >= watched_.size())
+    return;
+  const auto& item = items_[static_cast<std::size_t>(watched_[i])];
+  const auto& geometry = item.object->geometry();
+  fetch(geometry.form, geometry.center);
+  if (item.frame != nullptr)
+    fetch(item.frame->*engine::FrameMembers::transform, item.frame->*engine::FrameMembers::velocity);
 }
 
 void Scene::place(int index)

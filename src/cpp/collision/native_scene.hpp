@@ -77,6 +77,7 @@ private:
   {
     Object* object;
     const dart::dynamics::BodyNode* body; ///< Null: a frame of its own.
+    const dart::dynamics::Frame* frame;   ///< The body's.
     const dart::dynamics::Skeleton* skeleton;
     std::size_t place; ///< Of the body in its skeleton.
     bool bounded;
@@ -98,6 +99,7 @@ private:
   Item& item(int i) { return items_[static_cast<std::size_t>(i)]; }
   void place();
   void place(int index);
+  void fetch_ahead(std::size_t i) const;
   void look_at_motion(Item& item);
   void widen(Item& item);
   void update();

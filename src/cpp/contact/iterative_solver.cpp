@@ -138,14 +138,17 @@ void IterativeSolver::find_islands()
 void IterativeSolver::find_steps()
 {
   const auto index = [](int i) { return static_cast<std::size_t>(i); };
-  std::vector<std::vector<int>::size_type> ends(index(movers_.size()) + 1, 0); // of each mover's part of `touching`
+  thread_local std::vector<std::size_t> ends, begins; // of each mover's part of `touching`
+  thread_local std::vector<int> touching, reached;
+  ends.assign(index(movers_.size()) + 1, 0);
   for (const auto& source : sources_)
     for (const auto& place : source.places)
       if (place.mover != none)
         ++ends[index(place.mover)];
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<int> touching(ends.back()), reached;
-  auto begins = ends;
+  touching.resize(ends.back());
+  reached.clear();
+  begins = ends;
   for (std::size_t i = sources_.size(); i-- > 0;)
     for (const auto& place : sources_[i].places)
       if (place.mover != none)
@@ -276,9 +279,9 @@ void IterativeSolver::keep_corrections()
 {
   if (corrected_.allFinite())
     movers_.correct_free(corrected_);
-  movers_.each_joint(corrected_, [this](dart::dynamics::Joint& joint, const Eigen::VectorXd& change) {
-    if (change.allFinite())
-      corrections_.push_back({&joint, change, {}});
+  movers_.each_joint(corrected_, [this](double* velocities, const auto& change) {
+    for (Eigen::Index i = 0; i < change.size() && change.allFinite(); ++i)
+      corrections_.push_back({velocities + i, change[i], 0.0});
   });
 }
 
@@ -290,15 +293,15 @@ void IterativeSolver::move_free_bodies(double time_step)
 void IterativeSolver::add_corrections()
 {
   for (auto& correction : corrections_) {
-    correction.saved = correction.joint->getVelocities();
-    correction.joint->setVelocities(correction.saved + correction.velocity);
+    correction.saved = *correction.velocity;
+    *correction.velocity += correction.change;
   }
 }
 
 void IterativeSolver::take_off_corrections()
 {
   for (auto correction = corrections_.rbegin(); correction != corrections_.rend(); ++correction)
-    correction->joint->setVelocities(correction->saved);
+    *correction->velocity = correction->saved;
   corrections_.clear();
 }
 

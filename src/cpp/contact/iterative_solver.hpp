@@ -72,10 +72,11 @@ private:
 
     bool joins_as(const Source& other) const { return places[0].mover == other.places[0].mover && places[1].mover == other.places[1].mover; }
   };
+  /// Of a velocity, while positions change.
   struct Correction
   {
-    dart::dynamics::Joint* joint;
-    Eigen::VectorXd velocity, saved;
+    double* velocity;
+    double change, saved;
   };
 
   void find_sources();

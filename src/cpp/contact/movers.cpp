@@ -3,6 +3,8 @@
 #include <dart/dynamics/SoftBodyNode.hpp>
 #include <typeinfo>
 
+#include "engine/tree_members.hpp"
+
 namespace pydart2 {
 
 using dart::dynamics::BodyNode;
@@ -144,6 +146,11 @@ Movers::Vector6 Movers::joint_change(const Mover& mover, const Eigen::VectorXd& 
   twist.head<3>() = body.pose.linear().transpose() * turning;
   twist.tail<3>() = body.pose.linear().transpose() * moving;
   return dart::math::AdInvT(body.joint->getTransformFromChildBodyNode(), twist);
+}
+
+double* Movers::velocities_of(FreeJoint& joint)
+{
+  return (joint.*engine::GenericJointMembers<dart::math::SE3Space>::state).mVelocities.data();
 }
 
 void Movers::calm(Eigen::VectorXd& velocities, double noise, double most) const

@@ -81,7 +81,7 @@ public:
   /// Gives free bodies in the array what is to correct their positions.
   void correct_free(const Eigen::VectorXd& velocities);
 
-  /// Calls `give(joint, change of its velocities)` for each joint of what moves, but for the bodies in the array.
+  /// Calls `give(its velocities, their change)` for each joint of what moves, but for the bodies in the array.
   template <class Give>
   void each_joint(const Eigen::VectorXd& velocities, const Give& give);
 
@@ -98,6 +98,7 @@ private:
   const Mover& at(int mover) const { return movers_[static_cast<std::size_t>(mover)]; }
   Place add_to_trees(dart::dynamics::BodyNode& body);
   Vector6 joint_change(const Mover& mover, const Eigen::VectorXd& velocities) const;
+  static double* velocities_of(dart::dynamics::FreeJoint& joint);
 
   std::vector<Mover> movers_;
   FreeBodies* free_ = nullptr;
@@ -116,7 +117,7 @@ void Movers::each_joint(const Eigen::VectorXd& velocities, const Give& give)
     if (mover.in_array || velocities.segment(mover.start, mover.size).isZero(0.0))
       continue;
     if (mover.tree == none)
-      give(*static_cast<dart::dynamics::Joint*>(mover.body->joint), Eigen::VectorXd(joint_change(mover, velocities)));
+      give(velocities_of(*mover.body->joint), joint_change(mover, velocities));
     else
       tree_rows_.joint_changes(mover.tree, velocities.data() + mover.start, give);
   }

@@ -83,8 +83,9 @@ void TreeImpulses::read_joint(Body& body)
 template <class Space>
 void TreeImpulses::read_moving_joint(Body& body)
 {
-  const auto& joint = static_cast<const GenericJoint<Space>&>(*body.node->getParentJoint());
+  auto& joint = static_cast<GenericJoint<Space>&>(*body.node->getParentJoint());
   const auto& I = body.node->*engine::BodyMembers::inertia;
+  body.velocities = (joint.*engine::GenericJointMembers<Space>::state).mVelocities.data();
   auto& terms = body.joint.emplace<MovingJoint<static_cast<int>(Space::NumDofs)>>();
   terms.J = joint.getRelativeJacobianStatic();
   terms.P = engine::InverseProjectedInertia<Space>::of(joint);

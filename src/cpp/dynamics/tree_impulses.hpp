@@ -80,6 +80,9 @@ public:
   /// How many degrees of freedom impulses move at a body's joint.
   int dofs(int body) const;
 
+  /// The engine's velocities of such a joint.
+  double* velocities(int body) const { return bodies_[body].velocities; }
+
   int parent(int body) const { return bodies_[body].parent; }
   const Eigen::Isometry3d& transform(int body) const { return bodies_[body].T; }
 
@@ -121,6 +124,7 @@ private:
     int next = none;
     int last_row = none;
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    double* velocities = nullptr; ///< The engine's, of the joint that impulses move.
     JointTerms joint;
     Vector6 bias = Vector6::Zero();   ///< b
     Vector6 change = Vector6::Zero(); ///< dV

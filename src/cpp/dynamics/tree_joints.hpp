@@ -2,6 +2,7 @@
 
 #include <dart/dynamics/GenericJoint.hpp>
 
+#include "base/fetch.hpp"
 #include "dynamics/tree_dynamics.hpp"
 #include "engine/tree_members.hpp"
 
@@ -76,23 +77,6 @@ inline bool is_unheard(const Entity& entity)
   return (entity.*EntityOf::transform_signal).getNumConnections() == 0
          && (entity.*EntityOf::velocity_signal).getNumConnections() == 0
          && (entity.*EntityOf::acceleration_signal).getNumConnections() == 0;
-}
-
-/// Has memory from one member of an object to another brought to the cache. Where there are many skeletons nothing of a step
-/// is left there in the next, and waiting takes most of the time.
-template <class First, class Last>
-void fetch(const First& first, const Last& last)
-{
-  constexpr std::ptrdiff_t line = 64;
-  const auto* end = reinterpret_cast<const char*>(&last + 1);
-  for (const auto* at = reinterpret_cast<const char*>(&first); at < end; at += line)
-    __builtin_prefetch(at);
-}
-
-template <class Member>
-void fetch(const Member& member)
-{
-  __builtin_prefetch(&member);
 }
 
 template <class Joint>

@@ -47,7 +47,7 @@ public:
   /// place.
   void write(int body1, int body2, const std::array<Rows, 2>& rows);
 
-  /// Calls `give(joint, change of its velocities)` for each joint of a tree that impulses move.
+  /// Calls `give(its velocities, their change)` for each joint of a tree that impulses move.
   template <class Give>
   void joint_changes(int tree, const double* held, const Give& give);
 
@@ -82,7 +82,7 @@ void TreeRows::joint_changes(int tree, const double* held, const Give& give)
         using Vector = Eigen::Matrix<double, dofs, 1>;
         const Vector change = Eigen::Map<const Vector>(held + its.start) - joint.P * (joint.G * its.change);
         its.change += joint.J * change;
-        give(*trees_.node(body).getParentJoint(), Eigen::VectorXd(change));
+        give(trees_.velocities(body), change);
       }
     });
   }
