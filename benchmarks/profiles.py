@@ -190,8 +190,8 @@ def main() -> None:
     print("\nThe limp human after 1.5 s, when it lies; the rows of `iterative` are also swept.\n")
     print(table(["human", "µs", *columns()], rows_of((*HUMANS, AIR), room_of)))
     print(
-        "\nIn the air the dynamics need one articulated inertia, with implicit damping. The engine's impulses need\n"
-        "the one without it, too, and go through the tree once more: those are its bits."
+        "\nIn the air the dynamics need one articulated inertia, with implicit damping. On the floor the engine's\n"
+        "impulses need the one without it, too, and go through the tree once more, as do the sweeps' rows."
     )
 
 
