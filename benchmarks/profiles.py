@@ -24,9 +24,13 @@ LYING = 1500  # steps
 CPP = ROOT / "src" / "cpp"
 SCENES = ("cubes", "chain", "fullbody1", "softBodies", "Atlas", "PR2", "Atlas with meshes")
 MANY = ("Atlas × 1", "Atlas × 16", "Atlas × 256", "Atlas × 256, FCL", "snapshot of 64", "clone of 64")
-#: Detector and solver.
-HUMANS = {"native, iterative": ("native", "iterative"), "Bullet": ("bullet", "fast"), "FCL": ("fcl", "fast")}
-AIR = "native, iterative, in the air"
+#: Detector, solver, and whether there is a floor.
+HUMANS = {
+    "native, iterative": ("native", "iterative", True),
+    "Bullet": ("bullet", "fast", True),
+    "FCL": ("fcl", "fast", True),
+    "native, iterative, in the air": ("native", "iterative", False),
+}
 #: Of a library's name, and of a function's. The first that is found.
 PARTS = (
     ("contacts found", r"libfcl|libode|libBullet|libLinear|libccd|libassimp", r"^dart::collision::|^room collision"),
@@ -102,11 +106,12 @@ def maker(name: str) -> Callable[[], int]:
             return int(copied)
 
         return copy
-    if name in HUMANS or name == AIR:
+    if name in HUMANS:
         from rollouts import human
 
-        world = human("native", "iterative", 0.1, ground=False) if name == AIR else human(*HUMANS[name], 0.1)
-        world.step(1 if name == AIR else LYING)
+        detector, solver, ground = HUMANS[name]
+        world = human(detector, solver, 0.1, ground)
+        world.step(LYING if ground else 1)
         lying = world.states()
 
         def lie() -> int:
@@ -188,7 +193,7 @@ def main() -> None:
         "and a copy makes the engine's objects, one by one."
     )
     print("\nThe limp human after 1.5 s, when it lies; the rows of `iterative` are also swept.\n")
-    print(table(["human", "µs", *columns()], rows_of((*HUMANS, AIR), room_of)))
+    print(table(["human", "µs", *columns()], rows_of(tuple(HUMANS), room_of)))
     print(
         "\nIn the air the dynamics need one articulated inertia, with implicit damping. On the floor the engine's\n"
         "impulses need the one without it, too, and go through the tree once more, as do the sweeps' rows."
