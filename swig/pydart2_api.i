@@ -7,6 +7,7 @@
 #include "engine/boxed_lcp.hpp"
 #include "engine/late_ode.hpp"
 #include "engine/shared_scenes.hpp"
+#include "engine/static_guards.hpp"
 #include "numpy_glue.hpp"
 #include "python/last_words.hpp"
 #include "python/long_form.hpp"
@@ -16,6 +17,7 @@
 
 %init %{
   import_array();
+  pydart2::hold_guards_over_fork();
   pydart2::make_assertions_throw();
   pydart2::make_asymmetry_throw();
   if (!pydart2::share_scenes()) {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -85,6 +86,42 @@ for _ in range(8):
 
 def test_a_child_forked_in_the_middle_of_a_step_works() -> None:
     done = run(FORK)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+SLOW_STATIC = """
+#include <unistd.h>
+
+static int slow() { usleep(300000); return 42; }
+
+extern "C" int value()
+{
+  static const int once = slow();
+  return once;
+}
+"""
+FORK_AT_A_STATIC = """
+import ctypes, os, threading, time, warnings
+warnings.simplefilter("ignore")
+library = ctypes.CDLL("{library}")  # by its name one of the engine's, whose calls are redirected at import
+import pydart2
+
+thread = threading.Thread(target=library.value)
+thread.start()
+time.sleep(0.05)
+child = os.fork()
+if child == 0:
+    os._exit(library.value())
+assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 42
+thread.join()
+"""
+
+
+def test_a_child_forked_in_the_first_time_of_a_static_can_use_it(tmp_path: Path) -> None:
+    library = tmp_path / "libdart-slow.so"
+    compiler = ["c++", "-shared", "-fPIC", "-x", "c++", "-", "-o", str(library)]
+    subprocess.run(compiler, input=SLOW_STATIC, text=True, check=True)
+    done = run(FORK_AT_A_STATIC.format(library=library))
     assert (done.returncode, done.stderr) == (0, "")
 
 

@@ -18,37 +18,28 @@ struct Entry
   void* mutex;
 };
 
-struct Entries
+std::vector<Entry>& entries()
 {
-  std::mutex mutex; ///< Held over the fork too: nobody adds one meanwhile.
-  std::vector<Entry> sorted;
-};
-
-Entries& entries()
-{
-  static auto& all = *new Entries; // also for a fork at the very end of the process
-  return all;
+  static auto& sorted = *new std::vector<Entry>; // also for a fork at the very end of the process
+  return sorted;
 }
 
 void before()
 {
-  entries().mutex.lock();
-  for (const auto& entry : entries().sorted)
+  for (const auto& entry : entries())
     entry.before(entry.mutex);
 }
 
 void in_parent()
 {
-  for (auto entry = entries().sorted.rbegin(); entry != entries().sorted.rend(); ++entry)
+  for (auto entry = entries().rbegin(); entry != entries().rend(); ++entry)
     entry->in_parent(entry->mutex);
-  entries().mutex.unlock();
 }
 
 void in_child()
 {
-  for (const auto& entry : entries().sorted)
+  for (const auto& entry : entries())
     entry.in_child(entry.mutex);
-  entries().mutex.unlock();
 }
 
 } // namespace
@@ -57,8 +48,7 @@ void at_fork(ForkOrder order, void (*parent_before)(void*), void (*parent_after)
 {
   static const int once = pthread_atfork(before, in_parent, in_child);
   static_cast<void>(once);
-  const std::lock_guard<std::mutex> lock(entries().mutex);
-  auto& sorted = entries().sorted;
+  auto& sorted = entries();
   const auto after = std::find_if(sorted.begin(), sorted.end(), [&](const Entry& entry) { return entry.order > order; });
   sorted.insert(after, {order, parent_before, parent_after, child, mutex});
 }

@@ -23,8 +23,7 @@ std::uintptr_t heap_end()
   return reinterpret_cast<std::uintptr_t>(sbrk(0)) / page * page;
 }
 
-/// Up to where that is done, or not wanted: what was there at import. Known from then on, for a child that is forked in the
-/// middle of a first step would wait for ever for what that begins to find out.
+/// Up to where that is done, or not wanted: what was there at import.
 std::atomic<std::uintptr_t> done{heap_end()};
 
 } // namespace

@@ -73,11 +73,7 @@ private:
   std::unordered_map<std::string, long> counts_;
 };
 
-Counts& counts()
-{
-  static Counts counts;
-  return counts;
-}
+Counts counts;
 
 /// What a detector says of a shape that it does not have, when its contacts are found without it all the same
 /// (collision/missing_pairs.hpp).
@@ -122,7 +118,7 @@ public:
       return;
     if (message_.level >= Level::warning && problems_.size() < max_problems)
       problems_ += (problems_.empty() ? "" : "; ") + message_.text;
-    const long count = counts().add(message_.text);
+    const long count = counts.add(message_.text);
     if (count > 10 && is_power_of_ten(count))
       message_.text += " (" + std::to_string(count) + " times so far)";
     if (count <= 10 || is_power_of_ten(count))
@@ -246,7 +242,7 @@ std::string problems()
 
 void forget()
 {
-  counts().clear();
+  counts.clear();
 }
 
 } // namespace pydart2::messages

@@ -64,12 +64,6 @@ private:
 class Pool
 {
 public:
-  static Pool& instance()
-  {
-    static auto& pool = *new Pool; // for ever: so do its threads
-    return pool;
-  }
-
   /// As many as there are to be had, at most `count`.
   std::vector<Worker*> take(std::size_t count)
   {
@@ -99,9 +93,7 @@ private:
   pid_t process_ = getpid();
 };
 
-} // namespace
-
-namespace {
+auto& pool = *new Pool; // for ever: so do its threads
 
 thread_local bool within_a_call = false;
 
@@ -123,7 +115,7 @@ void parallel_for(std::size_t count, std::size_t num_threads, const std::functio
     within_a_call = was_within;
   };
   const std::size_t wanted = within_a_call ? 1 : std::min(num_threads, count);
-  const auto workers = wanted > 1 ? Pool::instance().take(wanted - 1) : std::vector<Worker*>();
+  const auto workers = wanted > 1 ? pool.take(wanted - 1) : std::vector<Worker*>();
   std::vector<std::vector<messages::Message>> said(workers.size());
   for (std::size_t i = 0; i < workers.size(); ++i)
     workers[i]->begin([&take_turns, &said_here = said[i]] {
@@ -135,7 +127,7 @@ void parallel_for(std::size_t count, std::size_t num_threads, const std::functio
   for (auto* worker : workers)
     worker->wait();
   if (!workers.empty())
-    Pool::instance().give_back(workers);
+    pool.give_back(workers);
   for (auto& messages : said)
     messages::give(std::move(messages));
   for (const auto& exception : thrown)

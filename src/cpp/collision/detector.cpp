@@ -17,10 +17,15 @@ namespace pydart2 {
 using namespace dart::collision;
 using dart::constraint::ConstraintSolver;
 
+namespace {
+
+OdeMutex ode_mutex(ForkOrder::ode);
+
+} // namespace
+
 std::unique_lock<OdeMutex> lock_ode()
 {
-  static OdeMutex mutex(ForkOrder::ode);
-  return std::unique_lock(mutex);
+  return std::unique_lock(ode_mutex);
 }
 
 CollisionDetectorPtr make_detector(const std::string& name)

@@ -216,6 +216,8 @@ private:
   std::size_t clear_above_ = 100;
 };
 
+Forest forest;
+
 class Object : public FCLCollisionObject
 {
 public:
@@ -374,7 +376,6 @@ void FclDetector::refreshCollisionObject(CollisionObject* object)
 
 std::shared_ptr<Geometry> FclDetector::geometry(const ConstShapePtr& shape)
 {
-  static Forest forest;
   if (const auto [recipe, model] = recipe_of(*shape, getPrimitiveShapeType()); model)
     return std::make_shared<BorrowedTree>(forest.tree(recipe, model));
   if (const auto* soft = soft_at_rest ? dynamic_cast<const SoftMeshShape*>(shape.get()) : nullptr)

@@ -209,22 +209,25 @@ struct Made
   Geometry geometry;
 };
 
+/// The scene and its scale.
+using Key = std::tuple<const aiScene*, double, double, double>;
+
 /// Those of all worlds, each kept as long as one uses it.
+std::map<Key, std::weak_ptr<Made>> all_made;
+HeldOverFork<std::mutex> made_mutex(ForkOrder::meshes);
+
 Geometry shared(const MeshShape& shape)
 {
-  using Key = std::tuple<const aiScene*, double, double, double>;
-  static HeldOverFork<std::mutex> mutex(ForkOrder::meshes);
-  static std::map<Key, std::weak_ptr<Made>> all;
   if (!take_scene(shape.getMesh()))
     return imported(shape);
   const auto owner = std::make_shared<MeshShape>(shape.getScale(), shape.getMesh());
   const auto& scale = shape.getScale();
   const Key key(shape.getMesh(), scale.x(), scale.y(), scale.z());
-  const std::lock_guard lock(mutex);
-  auto made = all[key].lock();
+  const std::lock_guard lock(made_mutex);
+  auto made = all_made[key].lock();
   if (!made) {
     made = std::make_shared<Made>(Made{owner, imported(shape)});
-    all[key] = made;
+    all_made[key] = made;
   }
   Geometry geometry = made->geometry; // whose parts keep all of it
   if (geometry.hull)

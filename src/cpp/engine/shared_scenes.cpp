@@ -187,15 +187,11 @@ private:
     });
   }
 
-  HeldOverFork<std::mutex> mutex_{ForkOrder::innermost};
+  HeldOverFork<std::mutex> mutex_{ForkOrder::scenes};
   std::list<Shared> scenes_;
 };
 
-Scenes& scenes()
-{
-  static auto& all = *new Scenes; // for ever: worlds may end after what is static
-  return all;
-}
+auto& scenes = *new Scenes; // for ever: worlds may end after what is static
 
 using Load = const aiScene*(const std::string&, const ResourceRetrieverPtr&);
 constexpr Load* engines_load = &dart::dynamics::MeshShape::loadMesh;
@@ -204,7 +200,7 @@ const aiScene* load(const std::string& uri, const ResourceRetrieverPtr& retrieve
 {
   if (!retriever)
     return engines_load(uri, retriever);
-  if (const auto* scene = scenes().find(uri, *retriever))
+  if (const auto* scene = scenes.find(uri, *retriever))
     return scene;
   const auto noting = std::make_shared<Noting>(retriever);
   const auto* scene = engines_load(uri, noting); // without the lock: another thread may import the same meanwhile
@@ -217,13 +213,13 @@ const aiScene* load(const std::string& uri, const ResourceRetrieverPtr& retrieve
   }
   if (const auto scheme = mirror_scheme(uri); !scheme.empty())
     mirror(*scene, scheme);
-  scenes().add(uri, scene, noting->files);
+  scenes.add(uri, scene, noting->files);
   return scene;
 }
 
 void release(const aiScene* scene)
 {
-  if (scenes().drop(scene))
+  if (scenes.drop(scene))
     aiReleaseImport(scene);
 }
 
@@ -237,7 +233,7 @@ std::string mirror_scheme(const std::string& uri)
 
 bool take_scene(const aiScene* scene)
 {
-  return scenes().take(scene);
+  return scenes.take(scene);
 }
 
 bool share_scenes()

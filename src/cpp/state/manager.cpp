@@ -27,11 +27,12 @@ private:
   Busy claim_;
 };
 
+Manager manager;
+
 } // namespace
 
 Manager& Manager::instance()
 {
-  static Manager manager;
   return manager;
 }
 
